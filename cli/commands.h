@@ -1,0 +1,53 @@
+// The subcommands. Each adds its flags to the parser, and runs after a successful parse.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/preparation.h"
+
+namespace CLI {
+class App;
+}
+
+namespace spherematch {
+
+/// Flags that both subcommands have.
+struct CommonOptions {
+  std::string store = "data/spherematch.db";
+  std::string repair = "fill";
+  int threads = 0;  ///< 0 until add_common_options(): then the number of cores
+
+  [[nodiscard]] PreparationOptions preparation() const {
+    return {.repair = repair == "none" ? RepairMode::none : RepairMode::fill, .threads = threads};
+  }
+};
+
+struct PrepareOptions : CommonOptions {
+  std::vector<std::string> meshes;
+};
+
+struct MatchOptions : CommonOptions {
+  std::string source;
+  std::string target;
+  std::string output;  ///< empty: only print
+  std::string method = "default";
+};
+
+void add_prepare_options(CLI::App& command, PrepareOptions& options);
+void add_match_options(CLI::App& command, MatchOptions& options);
+
+/// Returns an ExitCode. A mesh that fails does not keep the others from being prepared.
+int run_prepare(const PrepareOptions& options);
+int run_match(const MatchOptions& options);
+
+// For both (main.cpp).
+
+void add_common_options(CLI::App& command, CommonOptions& options);
+/// Prints what went wrong to standard error, after `subject` and a colon where it is not empty, and returns the ExitCode.
+int report_current_exception(const std::string& subject);
+/// One line per stage: name and seconds.
+void print_seconds(const StageSeconds& seconds);
+
+}  // namespace spherematch

@@ -1,0 +1,78 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "cli/output_format.h"
+#include "engine/engine.h"
+
+namespace spherematch {
+
+namespace {
+
+void write_file(const std::filesystem::path& file, const std::string& bytes) {
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out) throw FileError(file.string() + ": cannot be written");
+}
+
+Preparation prepare_side(ShapeStore& store, const std::string& mesh, const MatchOptions& options) {
+  Preparation preparation = prepare_file(store, mesh, options.preparation());
+  std::printf("%s: %d vertices%s\n", mesh.c_str(), preparation.shape->surface.uploaded_vertices(),
+              preparation.was_stored ? ", already in the store" : "");
+  if (!preparation.was_stored) print_seconds(preparation.shape->seconds);
+  return preparation;
+}
+
+void print_result(const MatchResult& result) {
+  std::printf("match\n");
+  print_seconds(result.seconds);
+  int number = 0;
+  for (const CandidateSummary& candidate : result.candidates) {
+    std::printf("  candidate %d: correlation %.4f, score %.5g%s\n", ++number, candidate.correlation, candidate.score,
+                candidate.chosen ? ", chosen" : "");
+  }
+  for (const auto& [name, value] : result.quality) std::printf("  quality: %s %.5g\n", name.c_str(), value);
+}
+
+}  // namespace
+
+void add_match_options(CLI::App& command, MatchOptions& options) {
+  command.add_option("SRC", options.source, "Source mesh: the map has one entry for each of its vertices")->required();
+  command.add_option("TGT", options.target, "Target mesh")->required();
+  command.add_option("-o,--output", options.output, "Where to write the map: " + supported_extensions())
+      ->check([](const std::string& file) {
+        return output_format_of(file) ? std::string()
+                                      : "'" + file + "' has no supported extension; supported are " + supported_extensions();
+      });
+  command.add_option("--method", options.method, "Parameters of the match: the best measured ones, or the paper's")
+      ->check(CLI::IsMember({"default", "paper"}))
+      ->capture_default_str();
+  add_common_options(command, options);
+}
+
+int run_match(const MatchOptions& options) {
+  ShapeStore store(options.store);
+  std::string subject = options.source;
+  try {
+    const Preparation source = prepare_side(store, options.source, options);
+    subject = options.target;
+    const Preparation target = prepare_side(store, options.target, options);
+    subject = "match";
+    const MatchParameters parameters = options.method == "paper" ? MatchParameters::paper() : MatchParameters{};
+    const MatchResult result = match(*source.shape, *target.shape, parameters, {}, options.threads);
+    print_result(result);
+    if (!options.output.empty()) {
+      write_file(options.output, encode(result.map, output_format_of(options.output).value()));
+      std::printf("wrote %s\n", options.output.c_str());
+    }
+    return exit_success;
+  } catch (...) {
+    return report_current_exception(subject);
+  }
+}
+
+}  // namespace spherematch

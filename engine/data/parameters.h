@@ -1,0 +1,60 @@
+// Parameters of every stage, with the defaults that measure best; paper() gives the paper's and the reference's constants.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace spherematch {
+
+struct ReadLimits {
+  std::int64_t max_vertices = 300'000;
+};
+
+struct PreprocessParameters {
+  // Conformalised mean curvature flow (engine/sphere/conformal_flow.h)
+  int conformal_steps = 100;
+  double conformal_step_size = 0.4;  ///< at unit area with the standard cotangent stiffness
+  int collapse_passes = 3;           ///< reweighted passes against the collapse of limbs; 0 for the plain conformal map
+  int collapse_steps = 10;           ///< flow steps in each pass
+  double collapse_threshold = 0.1;   ///< linear scale below which a region counts as collapsed
+
+  // Authalic evolution (engine/sphere/authalic_evolution.h)
+  int authalic_resolution = 256;
+  int authalic_steps = 100;
+  double authalic_step_size = 0.005;
+  double authalic_smoothing = 0.0025;  ///< tau: coefficient l is damped by exp(-tau l (l + 1))
+
+  // Eigenbasis and signals (engine/spectrum)
+  int eigenpairs = 200;
+  std::vector<double> hks_times{1.0, 0.5, 0.25, 0.125, 0.0625, 0.01};
+  int signal_resolution = 128;
+
+  /// @throws EngineError(invalid_parameter) naming the field and the reason
+  void validate() const;
+  static PreprocessParameters paper();
+};
+
+struct MatchParameters {
+  // Rotational alignment (engine/register/rotation.h)
+  double rotation_time = 1.0;  ///< heat kernel signature time of the rotation signal
+  int rotation_bandwidth = 32;
+  int max_candidates = 4;             ///< K
+  double candidate_separation = 3.0;  ///< epsilon_1: squared Frobenius distance to a better candidate
+  double candidate_threshold = 0.1;   ///< epsilon_2: fraction of the best correlation that may be missing
+
+  // Optical flow (engine/register/optical_flow.h): level i has resolution flow_resolution * 2^i and the signal of flow_times[i]
+  std::vector<double> flow_times{0.5, 0.25, 0.125, 0.0625};
+  int flow_resolution = 16;
+  int flow_iterations = 6;        ///< per level
+  double flow_smoothness = 0.05;  ///< alpha
+
+  // Candidate selection (engine/register/selection.h)
+  bool paper_selection = false;  ///< by the one signal at time 0.01, as the paper does
+
+  /// @throws EngineError(invalid_parameter) naming the field and the reason
+  void validate() const;
+  static MatchParameters paper();
+};
+
+}  // namespace spherematch

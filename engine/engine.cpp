@@ -1,0 +1,144 @@
+#include "engine/engine.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <mutex>
+#include <string>
+
+#include "engine/data/parallel.h"
+#include "engine/io/mesh_reader.h"
+#include "engine/mesh/intrinsic_delaunay.h"
+#include "engine/mesh/laplacian.h"
+#include "engine/mesh/repair.h"
+#include "engine/register/registration.h"
+#include "engine/spectrum/eigenbasis.h"
+#include "engine/spectrum/signatures.h"
+#include "engine/sphere/authalic_evolution.h"
+#include "engine/sphere/conformal_flow.h"
+#include "engine/sphere/flip_repair.h"
+#include "engine/sphere/mobius.h"
+#include "engine/sphere/orientation.h"
+#include "engine/sphere/rasterizer.h"
+
+namespace spherematch {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Merges the progress of two branches that run side by side into one fraction that never falls.
+class JointProgress {
+ public:
+  JointProgress(const Progress& progress, double first_share) : progress_(progress), share_{first_share, 1 - first_share} {}
+
+  void update(std::size_t branch, const char* stage, double fraction) {
+    const std::scoped_lock lock(mutex_);
+    done_[branch] = fraction;
+    if (progress_.report) progress_.report(stage, share_[0] * done_[0] + share_[1] * done_[1]);
+  }
+
+ private:
+  const Progress& progress_;
+  std::mutex mutex_;
+  double share_[2];
+  double done_[2] = {0, 0};
+};
+
+/// Copy of the mesh, centred and of unit area: parameters are the same for every size.
+TriMesh unit_area(const TriMesh& mesh) {
+  TriMesh result = mesh;
+  result.vertices.rowwise() -= mesh.vertices.colwise().mean().eval();
+  result.vertices /= std::sqrt(face_areas(result.vertices, result.faces).sum());
+  return result;
+}
+
+struct SphereBranch {
+  Points sphere;
+  StageSeconds seconds;
+};
+
+SphereBranch parametrize(const TriMesh& mesh, const PreprocessParameters& parameters, const Progress& progress, JointProgress& joint) {
+  SphereBranch result;
+  auto start = Clock::now();
+  joint.update(0, "conformal", 0);
+  result.sphere = conformal_parametrization(mesh, parameters, progress);
+  result.seconds.emplace_back("conformal", seconds_since(start));
+
+  start = Clock::now();
+  joint.update(0, "centering", 0.3);
+  Eigen::VectorXd face_mass = face_areas(mesh.vertices, mesh.faces);
+  face_mass /= face_mass.sum();
+  center(result.sphere, mesh.faces, face_mass);
+  rotate_to_principal_axes(result.sphere, mesh.faces, face_mass);
+  if (!FlipRepair(mesh.faces, mesh.vertices.rows()).repair(result.sphere))
+    throw EngineError(ErrorCode::parametrization_failed, "centering the spherical parametrisation flipped triangles");
+  result.seconds.emplace_back("centering", seconds_since(start));
+
+  start = Clock::now();
+  evolve_authalically(result.sphere, mesh.faces, face_mass, parameters, progress,
+                      [&joint](double fraction) { joint.update(0, "authalic", 0.3 + 0.7 * fraction); });
+  result.seconds.emplace_back("authalic", seconds_since(start));
+  return result;
+}
+
+}  // namespace
+
+std::string_view engine_version() { return "1"; }
+
+Surface read_surface(std::span<const std::byte> bytes, std::string_view name, RepairMode mode, const ReadLimits& limits) {
+  return repair(read_mesh(bytes, name, limits), mode);
+}
+
+PreprocessedShape preprocess(Surface surface, const PreprocessParameters& parameters, const Progress& progress, int threads) {
+  parameters.validate();
+  const auto start = Clock::now();
+  const TriMesh mesh = unit_area(surface.mesh);
+  PreprocessedShape shape;
+  SphereBranch branch;
+  Eigenbasis basis;
+  double eigenbasis_seconds = 0;
+  JointProgress joint(progress, 0.6);
+  run_parallel(2, threads, [&](std::size_t task) {
+    if (task == 0) {
+      branch = parametrize(mesh, parameters, progress, joint);
+    } else {
+      const auto began = Clock::now();
+      IntrinsicMesh intrinsic = intrinsic_mesh(mesh);
+      make_delaunay(intrinsic);
+      basis = compute_eigenbasis(intrinsic, mesh.vertices.rows(), parameters.eigenpairs, progress);
+      eigenbasis_seconds = seconds_since(began);
+      joint.update(1, "eigenbasis", 1);
+    }
+  });
+
+  const auto began = Clock::now();
+  shape.sphere = std::move(branch.sphere);
+  shape.sphere_quality = measure_sphere(shape.sphere, mesh);
+  shape.eigenvalues = basis.values;
+  shape.eigenvectors = basis.vectors.cast<float>();
+  const Eigen::MatrixXd signatures = heat_kernel_signatures(shape.eigenvalues, shape.eigenvectors, parameters.hks_times);
+  const std::vector<Grid> grids = rasterize_signals(shape.sphere, mesh.faces, signatures, parameters.signal_resolution);
+  for (std::size_t i = 0; i < grids.size(); ++i) {
+    char name[32];
+    std::snprintf(name, sizeof name, "hks_%g", parameters.hks_times[i]);
+    shape.signals.push_back({name, grids[i].matrix().cast<float>()});
+  }
+  shape.seconds = std::move(branch.seconds);
+  shape.seconds.emplace_back("eigenbasis", eigenbasis_seconds);
+  shape.seconds.emplace_back("signals", seconds_since(began));
+  shape.seconds.emplace_back("total", seconds_since(start));
+  shape.surface = std::move(surface);
+  shape.engine = std::string(engine_version());
+  if (progress.report) progress.report("signals", 1);
+  return shape;
+}
+
+MatchResult match(const PreprocessedShape& source, const PreprocessedShape& target, const MatchParameters& parameters, const Progress& progress,
+                  int threads) {
+  parameters.validate();
+  return register_pair(source, target, parameters, progress, threads);
+}
+
+}  // namespace spherematch

@@ -1,0 +1,37 @@
+// The engine's facade: the few verbs that the server, the command line and the benchmarks use.
+// All functions are thread-safe and deterministic: the same input and parameters give the same bytes at any thread count.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "engine/data/correspondence.h"
+#include "engine/data/parameters.h"
+#include "engine/data/preprocessed_shape.h"
+#include "engine/data/progress.h"
+#include "engine/data/surface.h"
+
+namespace spherematch {
+
+/// Version of the method and its stored artefacts; a shape prepared by another version is prepared again.
+[[nodiscard]] std::string_view engine_version();
+
+/// Reads a mesh file and repairs it (engine/io, engine/mesh). `name` is a file name that helps where the content does not
+/// tell the format; it may be empty.
+/// @throws EngineError with every code up to wrong_genus
+[[nodiscard]] Surface read_surface(std::span<const std::byte> bytes, std::string_view name, RepairMode repair,
+                                   const ReadLimits& limits = {});
+
+/// The part of the method that belongs to one shape: conformal parametrisation, Moebius centering, authalic evolution,
+/// eigenbasis and signals. Uses up to `threads` threads.
+/// @throws EngineError(cancelled, invalid_parameter, parametrization_failed)
+[[nodiscard]] PreprocessedShape preprocess(Surface surface, const PreprocessParameters& parameters = {}, const Progress& progress = {},
+                                           int threads = 2);
+
+/// The part that belongs to a pair: rotational alignment, optical flow, candidate selection, composition.
+/// @throws EngineError(cancelled, invalid_parameter)
+[[nodiscard]] MatchResult match(const PreprocessedShape& source, const PreprocessedShape& target, const MatchParameters& parameters = {},
+                                const Progress& progress = {}, int threads = 2);
+
+}  // namespace spherematch

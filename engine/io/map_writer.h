@@ -1,0 +1,23 @@
+// Maps out: NPZ, NPY and text. The bytes depend on the arguments alone: no dates, no compression, little-endian.
+#pragma once
+
+#include <string>
+
+#include "engine/data/correspondence.h"
+#include "engine/data/tri_mesh.h"
+
+namespace spherematch {
+
+/// A zip of `vertex.npy` int32 (n,), `corners.npy` int32 (n, 3) and `bary.npy` float32 (n, 3), stored uncompressed.
+[[nodiscard]] std::string encode_npz(const Correspondence& map);
+
+/// `vertex` as NPY, int32 (n,).
+[[nodiscard]] std::string encode_npy(const Correspondence& map);
+
+/// `vertex` as text, one index per line.
+[[nodiscard]] std::string encode_text(const Correspondence& map);
+
+/// Points as NPY, float64 (n, 3).
+[[nodiscard]] std::string encode_npy(const Points& points);
+
+}  // namespace spherematch

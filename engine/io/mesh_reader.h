@@ -1,0 +1,21 @@
+// Mesh files in: the one entry for every format, recognised by content, then by name. Safe on untrusted bytes.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "engine/data/parameters.h"
+#include "engine/io/polygon_mesh.h"
+
+namespace spherematch {
+
+/// Reads a mesh from the bytes of a file. `name` is the file's name, for formats that the content does not tell; it may be
+/// empty. Memory stays within a small multiple of bytes.size(). Thread-safe.
+/// @throws EngineError(malformed_mesh) with the line, EngineError(unsupported_format), EngineError(too_many_vertices) when the
+/// mesh has more vertices than limits.max_vertices or more than 12 polygon corners for each of
+/// the vertices that the limit allows,
+/// EngineError(degenerate) when it has no vertices or no faces
+[[nodiscard]] PolygonMesh read_mesh(std::span<const std::byte> bytes, std::string_view name, const ReadLimits& limits = {});
+
+}  // namespace spherematch

@@ -1,0 +1,64 @@
+#include "engine/register/composition.h"
+
+#include <limits>
+#include <memory>
+
+#include "engine/mesh/closest_point.h"
+
+namespace spherematch {
+namespace {
+
+bool is_uploaded(const Surface& surface, std::int32_t face) { return surface.uploaded_corners.row(face).minCoeff() >= 0; }
+
+/// The corner nearest to the image in straight distance, ties to the lowest index.
+std::int32_t nearest_corner(const Surface& target, const Location& location) {
+  Eigen::Vector3d image = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) image += location.bary[k] * target.mesh.vertices.row(target.mesh.faces(location.face, k)).transpose();
+  std::int32_t best = -1;
+  double best_distance = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    const double distance = (target.mesh.vertices.row(target.mesh.faces(location.face, k)).transpose() - image).squaredNorm();
+    const std::int32_t corner = target.uploaded_corners(location.face, k);
+    if (distance < best_distance || (distance == best_distance && corner < best)) {
+      best = corner;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<Location> locate_all(const Points& source_sphere, const PointLocation& target) {
+  std::vector<Location> result(static_cast<std::size_t>(source_sphere.rows()));
+  for (Eigen::Index v = 0; v < source_sphere.rows(); ++v) result[static_cast<std::size_t>(v)] = target.locate(source_sphere.row(v));
+  return result;
+}
+
+Correspondence compose(const Surface& source, const Surface& target, const std::vector<Location>& locations) {
+  const std::size_t n = source.surface_vertex.size();
+  Correspondence map;
+  map.vertex.assign(n, -1);
+  map.corners.setConstant(static_cast<Eigen::Index>(n), 3, -1);
+  map.bary.setZero(static_cast<Eigen::Index>(n), 3);
+  std::unique_ptr<const ClosestPoint> closest;  // only for images on patches with added vertices
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::int32_t v = source.surface_vertex[i];
+    if (v < 0) continue;
+    Location location = locations[static_cast<std::size_t>(v)];
+    if (!is_uploaded(target, location.face)) {
+      if (!closest) closest = std::make_unique<const ClosestPoint>(target);
+      Eigen::Vector3d image = Eigen::Vector3d::Zero();
+      for (int k = 0; k < 3; ++k) image += location.bary[k] * target.mesh.vertices.row(target.mesh.faces(location.face, k)).transpose();
+      const SurfacePoint nearest = closest->query(image);
+      location = {nearest.face, {nearest.weights[0], nearest.weights[1], nearest.weights[2]}};
+    }
+    const auto row = static_cast<Eigen::Index>(i);
+    map.corners.row(row) = target.uploaded_corners.row(location.face);
+    map.bary.row(row) = location.bary.cast<float>().transpose();
+    map.vertex[i] = nearest_corner(target, location);
+  }
+  return map;
+}
+
+}  // namespace spherematch

@@ -1,0 +1,141 @@
+#include "engine/register/optical_flow.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/sphere/advection.h"
+#include "engine/sphere/rasterizer.h"
+
+namespace spherematch {
+namespace {
+
+constexpr int kFieldResolution = 128;  ///< at least, for the bilinear samples of the flow field
+
+/// The smoothing after which degree `degree` is left with 1/`reduction` of its coefficient.
+double cutoff_smoothing(int degree, double reduction) { return std::log(reduction) / (degree * (degree + 1.0)); }
+
+void smooth(int degree, double time, Harmonics& coefficients) {
+  scale_degrees(degree, coefficients, [time](int l) { return std::exp(-time * l * (l + 1)); });
+}
+
+/// The quadratic energy of one iteration.
+class FlowSystem {
+ public:
+  FlowSystem(const HarmonicTransform& transform, double smoothness)
+      : transform_(transform),
+        smoothness_(smoothness),
+        areas_(cell_areas(transform.resolution()).array()),
+        zero_(Harmonics::Zero(harmonic_count(transform.degree()))) {
+    const int n = transform.resolution();
+    tensor_[0] = tensor_[1] = tensor_[2] = Grid::Zero(n, n);
+    right_ = {Grid::Zero(n, n), Grid::Zero(n, n)};
+  }
+
+  /// Adds one channel of both shapes, given by its coefficients.
+  void add_channel(const Harmonics& source, const Harmonics& target) {
+    const TangentGrid s = transform_.synthesize_tangent(source, zero_), t = transform_.synthesize_tangent(target, zero_);
+    const Grid difference = transform_.synthesize(source - target);
+    tensor_[0] += s.colatitude * s.colatitude + t.colatitude * t.colatitude;
+    tensor_[1] += s.colatitude * s.longitude + t.colatitude * t.longitude;
+    tensor_[2] += s.longitude * s.longitude + t.longitude * t.longitude;
+    right_.colatitude += difference * (s.colatitude + t.colatitude);
+    right_.longitude += difference * (s.longitude + t.longitude);
+  }
+
+  /// The stream function u of the minimiser.
+  [[nodiscard]] Harmonics solve() {
+    constexpr int kIterations = 100;
+    constexpr double kTolerance = 1e-5;
+    for (Grid& component : tensor_) component.colwise() *= areas_;
+    right_.colatitude.colwise() *= areas_;
+    right_.longitude.colwise() *= areas_;
+    // Preconditioned by the mean of the data term, which is diagonal like the smoothness.
+    strength_ = (tensor_[0].sum() + tensor_[2].sum()) / (2 * areas_.sum() * transform_.resolution());
+
+    const int degree = transform_.degree();
+    Harmonics unused, r;
+    transform_.adjoint_tangent(right_, unused, r);
+    r[0] = 0;
+    Harmonics u = zero_, z = precondition(r), p = z;
+    double rz = harmonic_dot(degree, r, z);
+    const double stop = kTolerance * kTolerance * rz;
+    for (int i = 0; i < kIterations && rz > stop && rz > 0; ++i) {
+      const Harmonics ap = apply(p);
+      const double step = rz / harmonic_dot(degree, p, ap);
+      u += step * p;
+      r -= step * ap;
+      z = precondition(r);
+      const double next = harmonic_dot(degree, r, z);
+      p = z + (next / rz) * p;
+      rz = next;
+    }
+    return u;
+  }
+
+ private:
+  [[nodiscard]] double stiffness(int l) const { return smoothness_ * l * l * (l + 1.0) * (l + 1.0) + 1e-8; }
+
+  [[nodiscard]] Harmonics precondition(const Harmonics& r) const {
+    Harmonics z = r;
+    scale_degrees(transform_.degree(), z, [this](int l) { return 1 / (stiffness(l) + strength_ * l * (l + 1)); });
+    return z;
+  }
+
+  [[nodiscard]] Harmonics apply(const Harmonics& u) const {
+    const TangentGrid w = transform_.synthesize_tangent(zero_, u);
+    const TangentGrid data{tensor_[0] * w.colatitude + tensor_[1] * w.longitude, tensor_[1] * w.colatitude + tensor_[2] * w.longitude};
+    Harmonics unused, result;
+    transform_.adjoint_tangent(data, unused, result);
+    Harmonics smooth_part = u;
+    scale_degrees(transform_.degree(), smooth_part, [this](int l) { return stiffness(l); });
+    result += smooth_part;
+    result[0] = 0;
+    return result;
+  }
+
+  const HarmonicTransform& transform_;
+  double smoothness_;
+  Eigen::ArrayXd areas_;
+  Harmonics zero_;
+  Grid tensor_[3];     ///< sum of g g^T over channels and shapes: (colatitude, colatitude), mixed, (longitude, longitude)
+  TangentGrid right_;  ///< sum of (f_S - f_T) (grad f_S + grad f_T)
+  double strength_ = 0;
+};
+
+std::vector<Harmonics> level_signals(const FlowShape& shape, const FlowLevel& level, const HarmonicTransform& transform) {
+  Eigen::MatrixXd values(shape.signals->rows(), static_cast<Eigen::Index>(level.channels.size()));
+  for (std::size_t c = 0; c < level.channels.size(); ++c) values.col(static_cast<Eigen::Index>(c)) = shape.signals->col(level.channels[c]);
+  std::vector<Harmonics> result;
+  for (const Grid& grid : rasterize_signals(shape.sphere, *shape.faces, values, level.resolution)) {
+    Harmonics a = transform.analyze(grid);
+    smooth(transform.degree(), cutoff_smoothing(level.resolution / 2, 100), a);
+    result.push_back(std::move(a));
+  }
+  return result;
+}
+
+}  // namespace
+
+void flow_together(FlowShape& source, FlowShape& target, const FlowParameters& parameters, const Progress& progress) {
+  for (const FlowLevel& level : parameters.levels) {
+    const int degree = level.resolution / 2 - 1;
+    const HarmonicTransform transform(level.resolution, degree), fine(std::max(level.resolution, kFieldResolution), degree);
+    const Harmonics zero = Harmonics::Zero(harmonic_count(degree));
+    for (int iteration = 0; iteration < level.iterations; ++iteration) {
+      progress.check();
+      const std::vector<Harmonics> f = level_signals(source, level, transform), g = level_signals(target, level, transform);
+      FlowSystem system(transform, parameters.smoothness);
+      for (std::size_t c = 0; c < f.size(); ++c) system.add_channel(f[c], g[c]);
+      Harmonics stream = system.solve();
+      smooth(degree, cutoff_smoothing(level.resolution / 2, 100.0 * level.resolution), stream);
+      const TangentField flow(fine.synthesize_tangent(zero, stream));
+      advect(source.sphere, flow, 0.5);
+      advect(target.sphere, flow, -0.5);
+    }
+  }
+  // A pair that repair cannot mend is still located correctly but for the flipped faces; the quality reports them.
+  (void)source.repair->repair(source.sphere);
+  (void)target.repair->repair(target.sphere);
+}
+
+}  // namespace spherematch

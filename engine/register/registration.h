@@ -1,0 +1,15 @@
+// Registration of a pair: candidates, flow, selection, composition.
+#pragma once
+
+#include "engine/data/correspondence.h"
+#include "engine/data/parameters.h"
+#include "engine/data/progress.h"
+
+namespace spherematch {
+
+/// The stages of engine.h's match() in order, candidates in parallel on up to `threads` threads.
+/// @throws EngineError(cancelled)
+[[nodiscard]] MatchResult register_pair(const PreprocessedShape& source, const PreprocessedShape& target, const MatchParameters& parameters,
+                                        const Progress& progress, int threads);
+
+}  // namespace spherematch

@@ -1,0 +1,89 @@
+#include "engine/register/wigner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace spherematch {
+namespace {
+
+/// d^j_{jn}, the row that starts every recurrence; logarithms keep the binomials in range.
+double top_row(int j, int n, double log_cosine, double log_sine) {
+  const double log_binomial = std::lgamma(2 * j + 1) - std::lgamma(j + n + 1) - std::lgamma(j - n + 1);
+  const double magnitude = std::exp(0.5 * log_binomial + (j + n) * log_cosine + (j - n) * log_sine);
+  return (j - n) % 2 == 0 ? magnitude : -magnitude;
+}
+
+/// d^l_{mn} at l = max(|m|, |n|), by the symmetries d_{mn} = (-1)^{m-n} d_{nm} = d_{-n,-m}.
+double first_of_recurrence(int m, int n, double log_cosine, double log_sine) {
+  const int l = std::max(std::abs(m), std::abs(n));
+  const double sign = (m - n) % 2 == 0 ? 1 : -1;
+  if (m == l) return top_row(l, n, log_cosine, log_sine);
+  if (m == -l) return sign * top_row(l, -n, log_cosine, log_sine);
+  if (n == l) return sign * top_row(l, m, log_cosine, log_sine);
+  return top_row(l, -m, log_cosine, log_sine);
+}
+
+}  // namespace
+
+std::vector<Eigen::MatrixXd> wigner_d(int degree, double beta) {
+  std::vector<Eigen::MatrixXd> d;
+  for (int l = 0; l <= degree; ++l) d.emplace_back(2 * l + 1, 2 * l + 1);
+  const double log_cosine = std::log(std::max(std::cos(beta / 2), 1e-300)), log_sine = std::log(std::max(std::sin(beta / 2), 1e-300));
+  const double cosine = std::cos(beta);
+  for (int m = -degree; m <= degree; ++m)
+    for (int n = -degree; n <= degree; ++n) {
+      double previous = 0, current = first_of_recurrence(m, n, log_cosine, log_sine);
+      for (int l = std::max(std::abs(m), std::abs(n)); l <= degree; ++l) {
+        d[static_cast<std::size_t>(l)](m + l, n + l) = current;
+        const double up = l + 1.0, mm = m, nn = n, ll = l;
+        const double scale = up * (2 * ll + 1) / std::sqrt((up * up - mm * mm) * (up * up - nn * nn));
+        const double shift = l == 0 ? 0 : mm * nn / (ll * up);
+        const double back = l == 0 ? 0 : std::sqrt((ll * ll - mm * mm) * (ll * ll - nn * nn)) / (ll * (2 * ll + 1));
+        const double next = scale * ((cosine - shift) * current - back * previous);
+        previous = current;
+        current = next;
+      }
+    }
+  return d;
+}
+
+std::vector<DegreeVector> full_coefficients(int degree, const Harmonics& coefficients) {
+  std::vector<DegreeVector> result;
+  for (int l = 0; l <= degree; ++l) {
+    DegreeVector a(2 * l + 1);
+    for (int m = 0; m <= l; ++m) {
+      const std::complex<double> c = coefficients[harmonic_index(degree, l, m)];
+      a[l + m] = c;
+      a[l - m] = m % 2 == 0 ? std::conj(c) : -std::conj(c);
+    }
+    a[l] = a[l].real();
+    result.push_back(std::move(a));
+  }
+  return result;
+}
+
+std::vector<DegreeVector> rotate_coefficients(const std::vector<DegreeVector>& coefficients, const Eigen::Matrix3d& rotation) {
+  // R = Rz(alpha) Ry(beta) Rz(gamma)
+  const double beta = std::atan2(std::hypot(rotation(0, 2), rotation(1, 2)), rotation(2, 2));
+  double alpha = 0, gamma = 0;
+  if (std::sin(beta) > 1e-12) {
+    alpha = std::atan2(rotation(1, 2), rotation(0, 2));
+    gamma = std::atan2(rotation(2, 1), -rotation(2, 0));
+  } else {  // only alpha + gamma, or alpha - gamma at the other pole, matters
+    alpha = rotation(2, 2) > 0 ? std::atan2(rotation(1, 0), rotation(0, 0)) : std::atan2(-rotation(1, 0), -rotation(0, 0));
+  }
+  const int degree = static_cast<int>(coefficients.size()) - 1;
+  const std::vector<Eigen::MatrixXd> d = wigner_d(degree, beta);
+  std::vector<DegreeVector> result;
+  for (int l = 0; l <= degree; ++l) {
+    DegreeVector a = coefficients[static_cast<std::size_t>(l)];
+    for (int n = -l; n <= l; ++n) a[n + l] *= std::polar(1.0, -n * gamma);
+    DegreeVector b = d[static_cast<std::size_t>(l)] * a;
+    for (int m = -l; m <= l; ++m) b[m + l] *= std::polar(1.0, -m * alpha);
+    result.push_back(std::move(b));
+  }
+  return result;
+}
+
+}  // namespace spherematch

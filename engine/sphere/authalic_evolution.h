@@ -1,0 +1,20 @@
+// Authalic evolution: the parametrisation flows away from where surface area concentrates (Zou et al. 2011; paper 3.2, 4.1).
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "engine/data/parameters.h"
+#include "engine/data/progress.h"
+#include "engine/data/tri_mesh.h"
+
+namespace spherematch {
+
+/// Advects the vertices along -grad log(area scale factor), the logarithm smoothed for time authalic_smoothing, and recentres
+/// after each step. No triangle flips: vertices that would turn one over are held back.
+/// `face_mass` (F) are the surface's face areas, of sum 1. `report` is called with the fraction done.
+/// @throws EngineError(cancelled)
+void evolve_authalically(Points& sphere, const Triangles& faces, const Eigen::VectorXd& face_mass, const PreprocessParameters& parameters,
+                         const Progress& progress, const std::function<void(double)>& report);
+
+}  // namespace spherematch

@@ -1,0 +1,136 @@
+#include "engine/sphere/conformal_flow.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SparseCholesky>
+#include <cmath>
+
+#include "engine/mesh/laplacian.h"
+#include "engine/sphere/flip_repair.h"
+
+namespace spherematch {
+namespace {
+
+/// Moves the area-weighted centroid to the origin and scales the area to one.
+void normalize(Points& x, const Triangles& faces) {
+  double area = 0;
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const Eigen::Vector3d a = x.row(faces(f, 0)), b = x.row(faces(f, 1)), c = x.row(faces(f, 2));
+    const double w = 0.5 * (b - a).cross(c - a).norm();
+    area += w;
+    centroid += w / 3 * (a + b + c);
+  }
+  x.rowwise() -= (centroid / area).transpose();
+  x /= std::sqrt(area);
+}
+
+/// Linear size of each face on the sphere over its size on the surface, both of total area one.
+Eigen::VectorXd conformal_factors(const Points& x, const Triangles& faces, const Eigen::VectorXd& surface_areas) {
+  const Eigen::VectorXd areas = face_areas(x.rowwise().normalized(), faces);
+  const double tiny = 1e-30;
+  return ((areas.array() / areas.sum()).max(tiny) / (surface_areas.array() / surface_areas.sum()).max(tiny)).sqrt();
+}
+
+/// The flow with a fixed stiffness.
+class ConformalFlow {
+ public:
+  ConformalFlow(Points& x, const Triangles& faces, const IntrinsicMesh& intrinsic)
+      : x_(x),
+        faces_(faces),
+        intrinsic_(intrinsic),
+        areas_(face_areas(intrinsic)),
+        pattern_(edge_pattern({&faces, &intrinsic.faces}, x.rows())),
+        flowing_(pattern_, faces),
+        frozen_(pattern_, intrinsic.faces),
+        stiffness_(pattern_),
+        mass_(pattern_),
+        system_(pattern_) {
+    solver_.analyzePattern(pattern_);
+  }
+
+  /// `conductivity` (V) scales stiffness and mass around each vertex; `step_size` is the flow's time step.
+  void set_stiffness(const Eigen::VectorXd& conductivity, double step_size) {
+    const Eigen::VectorXd on_intrinsic = face_means(conductivity, intrinsic_.faces);
+    frozen_.assemble(stiffness_, [&](Eigen::Index f) {
+      ElementMatrix e = stiffness_element(intrinsic_.lengths.row(f), areas_[f]);
+      for (double& entry : e) entry *= step_size * on_intrinsic[f];
+      return e;
+    });
+    density_ = face_means(conductivity, faces_);
+  }
+
+  /// @throws EngineError(parametrization_failed)
+  void step() {
+    const Eigen::VectorXd current = face_areas(x_, faces_);
+    flowing_.assemble(mass_, [&](Eigen::Index f) { return mass_element(density_[f] * current[f]); });
+    for (Eigen::Index i = 0; i < system_.nonZeros(); ++i) system_.valuePtr()[i] = mass_.valuePtr()[i] + stiffness_.valuePtr()[i];
+    solver_.factorize(system_);
+    if (solver_.info() != Eigen::Success) throw EngineError(ErrorCode::parametrization_failed, "the conformal flow met a singular system");
+    const Eigen::Matrix<double, Eigen::Dynamic, 3> right = mass_.selfadjointView<Eigen::Lower>() * x_;
+    x_ = solver_.solve(right);
+    if (!x_.allFinite()) throw EngineError(ErrorCode::parametrization_failed, "the conformal flow diverged");
+    normalize(x_, faces_);
+  }
+
+ private:
+  /// Geometric mean over each face's corners.
+  static Eigen::VectorXd face_means(const Eigen::VectorXd& values, const Triangles& faces) {
+    Eigen::VectorXd means(faces.rows());
+    for (Eigen::Index f = 0; f < faces.rows(); ++f) means[f] = std::cbrt(values[faces(f, 0)] * values[faces(f, 1)] * values[faces(f, 2)]);
+    return means;
+  }
+
+  Points& x_;
+  const Triangles& faces_;
+  const IntrinsicMesh& intrinsic_;
+  Eigen::VectorXd areas_;
+  SparseMatrix pattern_;
+  ElementAssembler flowing_, frozen_;
+  SparseMatrix stiffness_, mass_, system_;
+  Eigen::VectorXd density_;  ///< per face of the mesh; scales the mass as the conductivity does the stiffness
+  Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> solver_;
+};
+
+}  // namespace
+
+Points conformal_parametrization(const TriMesh& surface, const PreprocessParameters& parameters, const Progress& progress) {
+  const Triangles& faces = surface.faces;
+  Points x = surface.vertices;
+  normalize(x, faces);
+
+  // The stiffness is that of the intrinsic Delaunay triangulation: without negative weights limbs collapse without folding.
+  IntrinsicMesh intrinsic = intrinsic_mesh({x, faces});
+  make_delaunay(intrinsic);
+  ConformalFlow flow(x, faces, intrinsic);
+  Eigen::VectorXd conductivity = Eigen::VectorXd::Ones(x.rows());
+  const auto run = [&](int steps) {
+    flow.set_stiffness(conductivity, parameters.conformal_step_size);
+    for (int step = 0; step < steps; ++step) {
+      progress.check();
+      flow.step();
+    }
+  };
+  run(parameters.conformal_steps);
+
+  // A conformal map shrinks a limb exponentially with its length, past what doubles resolve. Lowering the conductivity where it
+  // has shrunk most keeps the map harmonic, and free of flips, but makes it shrink less.
+  const Eigen::VectorXd surface_areas = face_areas(surface.vertices, faces);
+  for (int pass = 0; pass < parameters.collapse_passes; ++pass) {
+    const Eigen::VectorXd factors = conformal_factors(x, faces, surface_areas);
+    Eigen::VectorXd log_sum = Eigen::VectorXd::Zero(x.rows()), count = log_sum;
+    for (Eigen::Index f = 0; f < faces.rows(); ++f)
+      for (int k = 0; k < 3; ++k) {
+        log_sum[faces(f, k)] += std::log(std::min(1.0, factors[f] / parameters.collapse_threshold));
+        count[faces(f, k)] += 1;
+      }
+    conductivity.array() *= (log_sum.array() / count.array()).exp();
+    run(parameters.collapse_steps);
+  }
+
+  x.rowwise().normalize();
+  if (!FlipRepair(faces, x.rows()).repair(x))
+    throw EngineError(ErrorCode::parametrization_failed, "no conformal parametrisation without flipped triangles was found");
+  return x;
+}
+
+}  // namespace spherematch

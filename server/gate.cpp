@@ -1,0 +1,45 @@
+#include "server/gate.h"
+
+#include "server/problem.h"
+
+namespace spherematch {
+
+Gate::Permit::~Permit() {
+  if (gate_ != nullptr) gate_->leave();
+}
+
+Gate::Permit Gate::enter() {
+  std::unique_lock lock(mutex_);
+  if (!closed_ && inside_ == slots_) {
+    if (waiting_ == max_waiting_) throw ProblemError(api::Code::overloaded, "too many " + what_ + " at once; try again");
+    ++waiting_;
+    freed_.wait(lock, [this] { return closed_ || inside_ < slots_; });
+    --waiting_;
+  }
+  if (closed_) throw ProblemError(api::Code::draining, "the server is stopping");
+  ++inside_;
+  return Permit(this);
+}
+
+void Gate::leave() {
+  {
+    const std::lock_guard lock(mutex_);
+    --inside_;
+  }
+  freed_.notify_one();
+}
+
+void Gate::close() {
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+  }
+  freed_.notify_all();
+}
+
+Gate::Counts Gate::counts() const {
+  const std::lock_guard lock(mutex_);
+  return {inside_, waiting_};
+}
+
+}  // namespace spherematch

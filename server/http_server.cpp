@@ -1,0 +1,267 @@
+// Guards around cpp-httplib 0.11.4, whose limits are fixed when its library is compiled:
+// - one request per connection: it would parse an unread body as the next request;
+// - bodies only by content readers, of declared length, unencoded (server/body_reader.h): it limits form bodies to 8 KiB, and
+//   neither counts chunks nor what it decompresses;
+// - routing before its own, which answers 404 to a wrong method and matches paths with recursive regular expressions;
+// - Range is ignored: it would send 206 and a part under a tag of the whole;
+// - a longer listen backlog, a bounded queue of connections, no shared listening port;
+// - deadlines on whole requests, a limit on all headers together, and input drained before a refused connection closes
+// (server/socket_stream.h).
+#include "server/http_server.h"
+
+#include <httplib.h>
+#include <spdlog/spdlog.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <atomic>
+#include <random>
+#include <stdexcept>
+#include <thread>
+
+#include "api/json.h"
+#include "server/body_reader.h"
+#include "server/problem.h"
+#include "server/socket_stream.h"
+#include "server/task_queue.h"
+
+namespace spherematch {
+
+namespace {
+
+constexpr int listen_backlog = 511;
+constexpr const char* id_header = "X-Request-Id";
+
+std::string random_id() {
+  std::random_device device;
+  std::string id;
+  for (int i = 0; i < 4; ++i) id += fmt::format("{:08x}", device());
+  return id;
+}
+
+/// A client's request id is taken over when it is fit to be written into headers and logs.
+std::string request_id_of(const httplib::Request& request) {
+  const std::string given = request.get_header_value(id_header);
+  const bool sound = !given.empty() && given.size() <= 128 && std::all_of(given.begin(), given.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.' || c == ':';
+  });
+  return sound ? given : random_id();
+}
+
+api::Code code_of_status(int status) {
+  switch (status) {
+    case 404:
+      return api::Code::not_found;
+    case 413:
+      return api::Code::payload_too_large;
+    case 414:
+      return api::Code::uri_too_long;
+    default:
+      return status < 500 ? api::Code::bad_request : api::Code::internal;
+  }
+}
+
+HttpRequest request_of(const httplib::Request& from) {
+  HttpRequest request;
+  request.method = from.method;
+  request.path = from.path;
+  request.query = from.params;
+  request.request_id = from.get_header_value(id_header);
+  for (const auto& [name, value] : from.headers) {
+    std::string lower = name;
+    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    request.headers.emplace(std::move(lower), value);
+  }
+  return request;
+}
+
+void write_to(httplib::Response& to, HttpResponse from) {
+  to.status = from.status;
+  for (auto& [name, value] : from.headers) to.set_header(name, value);
+  if (!from.content_type.empty()) to.set_header("Content-Type", from.content_type);
+  to.body = std::move(from.body);
+}
+
+}  // namespace
+
+class HttpServer::Library final : public httplib::Server {
+ public:
+  Library(const Router& router, Gate& uploads, const HttpServerSettings& settings);
+
+  int bind(const std::string& host, int port);
+  void run();
+  void stop_all();
+
+ private:
+  /// What the log says of a request.
+  struct Exchange {
+    std::string method = "-";
+    std::string path;
+    std::string request_id = "-";
+    bool has_body = false;
+  };
+
+  bool process_and_close_socket(socket_t socket) override;
+  void serve(SocketStream& stream);
+  static void shed(SocketStream& stream);
+  static void prepare(httplib::Request& request, Exchange& exchange);
+  void log(const Exchange& exchange, int status, double milliseconds) const;
+  void install_handlers();
+  HandlerResponse route(const httplib::Request& request, httplib::Response& response);
+  [[nodiscard]] bool awaits_body(const httplib::Request& request) const;
+
+  const Router& router_;
+  Gate& uploads_;
+  const HttpServerSettings settings_;
+  const std::vector<std::string> upload_paths_;
+  std::atomic<bool> stopping_ = false;
+  std::thread::id accepting_thread_;
+};
+
+HttpServer::Library::Library(const Router& router, Gate& uploads, const HttpServerSettings& settings)
+    : router_(router), uploads_(uploads), settings_(settings), upload_paths_(router.upload_patterns()) {
+  new_task_queue = [this] { return new BoundedTaskQueue(settings_.threads, settings_.max_connections); };
+  set_tcp_nodelay(true);
+  set_socket_options([](socket_t socket) {
+    // The library's own choice, SO_REUSEPORT, would let two servers share a port unnoticed.
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
+  install_handlers();
+}
+
+void HttpServer::Library::install_handlers() {
+  set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) { return route(request, response); });
+  for (const std::string& path : upload_paths_) {
+    Post(path, [this](const httplib::Request& from, httplib::Response& to, const httplib::ContentReader& reader) {
+      HttpRequest request = request_of(from);
+      write_to(to, router_.handle(request, [&](HttpRequest& r) { r.upload = read_upload(from, reader, uploads_); }));
+    });
+  }
+  set_expect_100_continue_handler([this](const httplib::Request& request, httplib::Response& response) {
+    if (awaits_body(request)) {
+      if (const auto refusal = refuse_body(request, settings_.max_body_bytes)) {
+        write_to(response, problem_response(*refusal, request.get_header_value(id_header)));
+        return response.status;
+      }
+    }
+    return 100;
+  });
+  // What the library answers by itself, before any handler saw the request.
+  set_error_handler(HandlerWithResponse([](const httplib::Request& request, httplib::Response& response) {
+    if (!response.body.empty()) return HandlerResponse::Unhandled;
+    const api::Code code = code_of_status(response.status);
+    const std::string id = request_id_of(request);
+    write_to(response, problem_response({code, "the server could not read the request"}, id));
+    response.set_header(id_header, id);
+    return HandlerResponse::Handled;
+  }));
+  set_post_routing_handler([](const httplib::Request& request, httplib::Response& response) {
+    response.headers.erase("Accept-Ranges");
+    if (!response.has_header(id_header)) response.set_header(id_header, request.get_header_value(id_header));
+    response.set_header("X-Content-Type-Options", "nosniff");
+  });
+}
+
+bool HttpServer::Library::awaits_body(const httplib::Request& request) const {
+  return request.method == "POST" && std::find(upload_paths_.begin(), upload_paths_.end(), request.path) != upload_paths_.end();
+}
+
+httplib::Server::HandlerResponse HttpServer::Library::route(const httplib::Request& from, httplib::Response& to) {
+  if (awaits_body(from)) {
+    const auto refusal = refuse_body(from, settings_.max_body_bytes);
+    if (!refusal) return HandlerResponse::Unhandled;  // goes on to the content reader
+    write_to(to, problem_response(*refusal, from.get_header_value(id_header)));
+  } else {
+    HttpRequest request = request_of(from);
+    write_to(to, router_.handle(request, [](HttpRequest&) {}));
+  }
+  return HandlerResponse::Handled;
+}
+
+int HttpServer::Library::bind(const std::string& host, int port) {
+  const int bound = port == 0 ? bind_to_any_port(host) : bind_to_port(host, port) ? port : -1;
+  // The library listens with a backlog of 5; listening again changes it.
+  if (bound < 0 || ::listen(svr_sock_, listen_backlog) != 0) {
+    throw std::runtime_error("cannot listen on " + host + ":" + std::to_string(port));
+  }
+  return bound;
+}
+
+void HttpServer::Library::run() {
+  accepting_thread_ = std::this_thread::get_id();
+  listen_after_bind();
+}
+
+void HttpServer::Library::stop_all() {
+  stopping_ = true;
+  stop();
+}
+
+bool HttpServer::Library::process_and_close_socket(socket_t socket) {
+  SocketStream stream(socket, {}, stopping_);
+  if (std::this_thread::get_id() == accepting_thread_) {
+    shed(stream);
+  } else {
+    serve(stream);
+  }
+  ::shutdown(socket, SHUT_RDWR);
+  ::close(socket);
+  return true;
+}
+
+void HttpServer::Library::serve(SocketStream& stream) {
+  const auto started = std::chrono::steady_clock::now();
+  Exchange exchange;
+  bool closed = false;
+  process_request(stream, /*close_connection=*/true, closed, [&](httplib::Request& request) {
+    stream.end_of_head();
+    prepare(request, exchange);
+  });
+  if (stream.written_status() == 0) return;  // the peer went away without a request
+  const auto took = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started);
+  log(exchange, stream.written_status(), took.count());
+  if (exchange.has_body && stream.written_status() >= 400) stream.drain();
+}
+
+void HttpServer::Library::prepare(httplib::Request& request, Exchange& exchange) {
+  request.ranges.clear();
+  exchange.request_id = request_id_of(request);
+  request.headers.erase(id_header);
+  request.set_header(id_header, exchange.request_id);
+  exchange.method = request.method;
+  exchange.path = request.path;
+  exchange.has_body = request.has_header("Content-Length") || request.has_header("Transfer-Encoding");
+}
+
+/// On the accepting thread, so it must not wait for the peer: the request is not read.
+void HttpServer::Library::shed(SocketStream& stream) {
+  const HttpResponse problem = problem_response({api::Code::overloaded, "too many connections at once; try again"}, random_id());
+  std::string text = "HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\nContent-Type: " + problem.content_type +
+                     "\r\nContent-Length: " + std::to_string(problem.body.size());
+  for (const auto& [name, value] : problem.headers) text.append("\r\n").append(name).append(": ").append(value);
+  text.append("\r\n\r\n").append(problem.body);
+  ::send(stream.socket(), text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  // Taking what has arrived makes a reset, which could overtake the response, unlikely.
+  std::array<char, 8192> scrap{};
+  ::recv(stream.socket(), scrap.data(), scrap.size(), MSG_DONTWAIT);
+  spdlog::warn("event=connection_shed");
+}
+
+void HttpServer::Library::log(const Exchange& exchange, int status, double milliseconds) const {
+  spdlog::info("event=request method={} route={} status={} ms={:.1f} id={}", exchange.method, router_.pattern_of(exchange.path), status,
+               milliseconds, exchange.request_id);
+}
+
+HttpServer::HttpServer(const Router& router, Gate& uploads, const HttpServerSettings& settings)
+    : library_(std::make_unique<Library>(router, uploads, settings)) {}
+
+HttpServer::~HttpServer() = default;
+
+int HttpServer::bind(const std::string& host, int port) { return library_->bind(host, port); }
+
+void HttpServer::run() { library_->run(); }
+
+void HttpServer::stop() { library_->stop_all(); }
+
+}  // namespace spherematch

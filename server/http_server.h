@@ -1,0 +1,41 @@
+// The HTTP library behind the routes, with guards against what its version 0.11.4 lacks: see http_server.cpp.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "server/gate.h"
+#include "server/router.h"
+
+namespace spherematch {
+
+struct HttpServerSettings {
+  std::size_t max_body_bytes = std::size_t{64} << 20;
+  std::size_t threads = 32;           ///< connections served at once
+  std::size_t max_connections = 256;  ///< connections that wait for a thread; further ones get 503
+};
+
+class HttpServer {
+ public:
+  /// Router and gate must outlive this.
+  HttpServer(const Router& router, Gate& uploads, const HttpServerSettings& settings);
+  ~HttpServer();
+  HttpServer(const HttpServer&) = delete;
+  HttpServer& operator=(const HttpServer&) = delete;
+
+  /// Port 0 takes a free one. Returns the port. @throws std::runtime_error
+  int bind(const std::string& host, int port);
+
+  /// Serves until stop(); returns when every connection has ended.
+  void run();
+
+  /// From any thread: no new connections, no waiting for input. Requests whose handlers run are still answered.
+  void stop();
+
+ private:
+  class Library;
+  std::unique_ptr<Library> library_;
+};
+
+}  // namespace spherematch

@@ -1,0 +1,88 @@
+// A bounded pool of workers for long jobs that are known by a key, report progress, and can be waited for and cancelled.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/data/progress.h"
+
+namespace spherematch {
+
+struct JobStatus {
+  bool running = false;  ///< false while queued
+  std::string stage;
+  double progress = 0;  ///< in [0, 1]; never falls
+};
+
+/// Thread-safe. Of one key at most one job is active (queued or running) at a time.
+class JobRunner {
+ public:
+  /// Does the job. Must not throw. A job that was cancelled should return soon after `progress.stop` is requested.
+  using Work = std::function<void(const std::string& key, const Progress& progress)>;
+  using Clock = std::chrono::steady_clock;
+
+  JobRunner(Work work, std::size_t workers, std::size_t max_queued);
+  ~JobRunner();  ///< stop()
+  JobRunner(const JobRunner&) = delete;
+  JobRunner& operator=(const JobRunner&) = delete;
+
+  enum class Submitted { queued, already_active, full, stopped };
+  /// `beyond_limit` is for jobs that were accepted earlier, as before a restart.
+  Submitted submit(const std::string& key, bool beyond_limit = false);
+
+  [[nodiscard]] bool full() const;
+
+  /// Nothing when no job of this key is active.
+  [[nodiscard]] std::optional<JobStatus> status(const std::string& key) const;
+
+  /// Waits until no job of this key is active; false when that did not happen in time or the runner was stopped.
+  [[nodiscard]] bool wait(const std::string& key, Clock::time_point deadline) const;
+
+  /// Forgets the job at once; a running one is asked to stop and its further reports go nowhere.
+  void cancel(const std::string& key);
+
+  /// Asks every job to stop, wakes all waiters, and returns when the workers are idle. Queued jobs are dropped.
+  void stop();
+
+  struct Counts {
+    std::size_t queued = 0;
+    std::size_t running = 0;
+  };
+  [[nodiscard]] Counts counts() const;
+
+ private:
+  struct Job {
+    std::string key;
+    JobStatus status;
+    std::stop_source stop;
+  };
+  using JobPointer = std::shared_ptr<Job>;
+
+  void work_loop();
+  void run(const JobPointer& job);
+  void finish(const JobPointer& job);
+
+  const Work work_;
+  const std::size_t max_queued_;
+  mutable std::mutex mutex_;
+  std::condition_variable queued_;            ///< a worker has something to do
+  mutable std::condition_variable finished_;  ///< a job is no longer active
+  std::deque<JobPointer> queue_;
+  std::unordered_map<std::string, JobPointer> active_;
+  std::vector<JobPointer> running_;  ///< includes cancelled ones that have not returned yet
+  bool stopping_ = false;
+  std::vector<std::jthread> workers_;
+};
+
+}  // namespace spherematch

@@ -1,0 +1,120 @@
+// The server: options, store, engine, routes, signals.
+#include <pthread.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
+#include <thread>
+
+#include "server/http_server.h"
+#include "server/options.h"
+#include "server/real_engine.h"
+#include "server/server_context.h"
+#include "server/shape_service.h"
+#include "storage/shape_store.h"
+
+namespace spherematch {
+
+namespace {
+
+constexpr std::chrono::milliseconds stop_deadline{2000};
+
+void set_up_log(const std::string& level) {
+  auto logger = spdlog::stderr_logger_mt("server");
+  logger->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ level=%l %v", spdlog::pattern_time_type::utc);
+  logger->set_level(spdlog::level::from_str(level));
+  logger->flush_on(spdlog::level::trace);
+  spdlog::set_default_logger(logger);
+}
+
+ShapeServiceSettings shape_settings(const ServerOptions& options) {
+  return {.workers = static_cast<std::size_t>(options.workers),
+          .max_queued = static_cast<std::size_t>(options.max_queued_jobs),
+          .cache_bytes = static_cast<std::size_t>(options.shape_cache_mib) << 20,
+          .read_limits = {.max_vertices = options.max_vertices}};
+}
+
+constexpr std::size_t waiting_uploads = 8;
+
+/// One thread for everybody who may legitimately wait or compute, and a dozen more, so that short requests always find one.
+HttpServerSettings http_settings(const ServerOptions& options) {
+  const int heavy = options.concurrent_matches + options.waiting_matches + options.concurrent_uploads;
+  return {.max_body_bytes = options.max_body_bytes(),
+          .threads = static_cast<std::size_t>(heavy) + ShapeServiceSettings{}.max_long_polls + waiting_uploads + 12};
+}
+
+/// Blocks the signals in this thread and all that it starts; they are then taken by sigwait().
+sigset_t block_stop_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  return signals;
+}
+
+/// Ends the process when a stop takes too long. Nothing is lost: every change to the store is a transaction of its own.
+void end_after_deadline(const std::stop_token& stopped_in_time) {
+  const auto deadline = std::chrono::steady_clock::now() + stop_deadline;
+  while (std::chrono::steady_clock::now() < deadline) {
+    if (stopped_in_time.stop_requested()) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  spdlog::warn("event=stop_deadline_passed");
+  std::_Exit(0);
+}
+
+int serve(const ServerOptions& options) {
+  const sigset_t signals = block_stop_signals();
+  ShapeStore store(options.store);
+  const RealEngine engine(options.threads);
+  ShapeService shapes(store, engine, shape_settings(options));
+  Gate matches("matches", static_cast<std::size_t>(options.concurrent_matches), static_cast<std::size_t>(options.waiting_matches));
+  Gate uploads("uploads", static_cast<std::size_t>(options.concurrent_uploads), waiting_uploads);
+  std::stop_source stop;
+  const ServerContext context{options, SPHEREMATCH_VERSION, engine, shapes, matches, stop.get_token()};
+  Router router;
+  add_system_routes(router, context);
+  add_shape_routes(router, context);
+  add_match_routes(router, context);
+  HttpServer server(router, uploads, http_settings(options));
+  const int port = server.bind(options.host, options.port);
+
+  const bool is_ipv6 = options.host.find(':') != std::string::npos;
+  std::cout << "listening on http://" << (is_ipv6 ? "[" + options.host + "]" : options.host) << ":" << port << std::endl;
+  spdlog::info("event=started port={} store={} engine={} threads={}", port, options.store, engine.version(), options.threads);
+  std::jthread serving([&server] { server.run(); });
+
+  int signal = 0;
+  sigwait(&signals, &signal);
+  spdlog::info("event=stopping signal={}", signal);
+  std::jthread watchdog(end_after_deadline);
+  stop.request_stop();
+  matches.close();
+  uploads.close();
+  server.stop();
+  shapes.stop();
+  serving.join();
+  watchdog.request_stop();
+  spdlog::info("event=stopped");
+  return 0;
+}
+
+}  // namespace
+
+}  // namespace spherematch
+
+int main(int argc, char** argv) {
+  const auto [options, exit_code] = spherematch::parse_options(argc, argv, SPHEREMATCH_VERSION);
+  if (exit_code) return *exit_code;
+  try {
+    spherematch::set_up_log(options.log_level);
+    return spherematch::serve(options);
+  } catch (const std::exception& error) {
+    std::cerr << "spherematch-server: " << error.what() << "\n";
+    return 1;
+  }
+}

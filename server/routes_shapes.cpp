@@ -1,0 +1,134 @@
+// POST, GET and DELETE of shapes.
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "api/json.h"
+#include "engine/io/map_writer.h"
+#include "server/conditional.h"
+#include "server/negotiation.h"
+#include "server/problem.h"
+#include "server/request_parameters.h"
+#include "server/server_context.h"
+
+namespace spherematch {
+
+namespace {
+
+constexpr std::size_t max_name_bytes = 200;
+constexpr std::array<std::string_view, 2> repair_modes{"fill", "none"};
+constexpr std::array<Representation, 1> sphere_representations{{{"npy", "application/x-npy"}}};
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
+HttpResponse json_response(int status, const api::Json& json) {
+  return {.status = status, .content_type = "application/json", .body = api::to_text(json) + "\n", .headers = {}};
+}
+
+/// A given name is refused when it cannot be kept as it is; the name of an uploaded file is made to fit.
+std::string shape_name(const RequestParameters& parameters, const std::string& file_name) {
+  if (const auto given = parameters.text("name")) {
+    if (given->size() > max_name_bytes || std::any_of(given->begin(), given->end(), is_control)) {
+      throw ProblemError(api::Code::invalid_parameter,
+                         "name: must have at most " + std::to_string(max_name_bytes) + " bytes and no control characters");
+    }
+    return *given;
+  }
+  std::string name = file_name.substr(file_name.find_last_of("/\\") + 1);
+  std::erase_if(name, is_control);
+  return name.substr(0, max_name_bytes);
+}
+
+HttpResponse post_shape(const ServerContext& context, HttpRequest& request) {
+  const RequestParameters parameters(request, {"name", "repair", "wait"});
+  const std::string name = shape_name(parameters, request.upload.file_name);
+  const RepairMode repair = parameters.choice("repair", repair_modes) == "fill" ? RepairMode::fill : RepairMode::none;
+  const auto wait = parameters.seconds("wait", 0, max_wait_seconds);
+
+  Upload upload = std::exchange(request.upload, {});
+  const std::string& file_name = upload.file_name.empty() ? name : upload.file_name;
+  const auto [id, known] = context.shapes.post(std::as_bytes(std::span(upload.bytes)), name, file_name, repair);
+  upload = {};  // the wait may be long, and others may need the memory
+  context.shapes.wait_until_finished(id, ShapeService::Clock::now() + wait);
+
+  const api::Shape shape = context.shapes.get(id);
+  HttpResponse response = json_response(known ? 200 : shape.state == api::ShapeState::ready ? 201 : 202, api::to_json(shape));
+  response.headers.emplace_back("Location", "/shapes/" + shape.id);
+  return response;
+}
+
+HttpResponse list_shapes(const ServerContext& context, const HttpRequest& request) {
+  const RequestParameters parameters(request, {"limit", "cursor"});
+  const auto limit = static_cast<std::size_t>(parameters.integer("limit", 50, 1, 200));
+  const api::ShapePage page = context.shapes.list(limit, parameters.text("cursor"));
+  HttpResponse response = json_response(200, api::to_json(page));
+  if (page.next_cursor) {
+    response.headers.emplace_back("Link", "</shapes?limit=" + std::to_string(limit) + "&cursor=" + *page.next_cursor + ">; rel=\"next\"");
+  }
+  return response;
+}
+
+HttpResponse get_shape(const ServerContext& context, const HttpRequest& request) {
+  const RequestParameters parameters(request, {});
+  HttpResponse response = json_response(200, api::to_json(context.shapes.get(request.id)));
+  const std::string etag = weak_etag({"shape", response.body});
+  if (names_etag(request.header("if-none-match"), etag)) response = {.status = 304, .content_type = {}, .body = {}, .headers = {}};
+  response.headers.emplace_back("ETag", etag);
+  response.headers.emplace_back("Cache-Control", "private, no-cache");
+  return response;
+}
+
+HttpResponse delete_shape(const ServerContext& context, const HttpRequest& request) {
+  const RequestParameters parameters(request, {});
+  context.shapes.remove(request.id);
+  return {.status = 204, .content_type = {}, .body = {}, .headers = {}};
+}
+
+/// The sphere position of each uploaded vertex, not-a-number for a dropped one.
+Points uploaded_sphere(const PreprocessedShape& shape) {
+  const auto& places = shape.surface.surface_vertex;
+  Points points(static_cast<Eigen::Index>(places.size()), 3);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const std::int32_t place = places[static_cast<std::size_t>(i)];
+    if (place < 0) {
+      points.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+    } else {
+      points.row(i) = shape.sphere.row(place);
+    }
+  }
+  return points;
+}
+
+HttpResponse get_sphere(const ServerContext& context, const HttpRequest& request) {
+  const RequestParameters parameters(request, {"format", "wait"});
+  const Representation& chosen = choose_representation(parameters.text("format"), request.header("accept"), sphere_representations);
+  const auto wait = parameters.seconds("wait", 0, max_wait_seconds);
+  context.shapes.require_usable(request.id);
+
+  HttpResponse response{.status = 200, .content_type = std::string(chosen.media_type), .body = {}, .headers = {}};
+  const std::string etag = weak_etag({"sphere", request.id, context.engine.version(), chosen.format});
+  response.headers = {{"ETag", etag}, {"Cache-Control", "private, no-cache"}, {"Vary", "Accept"}};
+  if (names_etag(request.header("if-none-match"), etag)) {
+    response.status = 304;
+    response.content_type.clear();
+    return response;
+  }
+  context.shapes.require_ready(request.id, ShapeService::Clock::now() + wait);
+  response.body = encode_npy(uploaded_sphere(*context.shapes.load(request.id)));
+  return response;
+}
+
+}  // namespace
+
+void add_shape_routes(Router& router, const ServerContext& context) {
+  const auto bind = [&context](auto handler) { return [&context, handler](HttpRequest& request) { return handler(context, request); }; };
+  router.add("POST", "/shapes", bind(post_shape), Body::upload);
+  router.add("GET", "/shapes", bind(list_shapes));
+  router.add("GET", "/shapes/{id}", bind(get_shape));
+  router.add("DELETE", "/shapes/{id}", bind(delete_shape));
+  router.add("GET", "/shapes/{id}/sphere", bind(get_sphere));
+}
+
+}  // namespace spherematch

@@ -1,0 +1,218 @@
+#include "server/shape_service.h"
+
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <mutex>
+
+#include "server/problem.h"
+#include "server/shape_json.h"
+#include "storage/content_id.h"
+#include "storage/upload_options.h"
+
+namespace spherematch {
+
+namespace {
+
+ProblemError no_such_shape(const std::string& id) { return {api::Code::not_found, "there is no shape '" + id.substr(0, 64) + "'"}; }
+
+ProblemError not_ready(const std::string& id) { return {api::Code::shape_not_ready, "shape " + id + " is still being prepared"}; }
+
+ProblemError failed(const ShapeRecord& record) {
+  return {api::Code::shape_failed, "shape " + record.id + " could not be prepared: " + record.error_detail};
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Logs each change of stage with the seconds of the one before, and passes everything on.
+class StageLog {
+ public:
+  StageLog(std::string id, Progress progress) : id_(std::move(id)), inner_(std::move(progress)) {}
+
+  [[nodiscard]] Progress progress() {
+    return {.report =
+                [this](std::string_view stage, double fraction) {
+                  inner_.report(stage, fraction);
+                  const std::lock_guard lock(mutex_);
+                  if (stage != stage_) next(stage);
+                },
+            .stop = inner_.stop};
+  }
+
+ private:
+  void next(std::string_view stage) {
+    if (!stage_.empty()) spdlog::info("event=stage_finished shape={} stage={} seconds={:.3f}", id_, stage_, seconds_since(started_));
+    stage_ = stage;
+    started_ = std::chrono::steady_clock::now();
+  }
+
+  std::string id_;
+  Progress inner_;
+  std::mutex mutex_;
+  std::string stage_;
+  std::chrono::steady_clock::time_point started_;
+};
+
+}  // namespace
+
+ShapeService::ShapeService(ShapeStore& store, const EnginePort& engine, const ShapeServiceSettings& settings)
+    : store_(store),
+      engine_(engine),
+      settings_(settings),
+      cache_(settings.cache_bytes),
+      jobs_([this](const std::string& id, const Progress& progress) { prepare(id, progress); }, settings.workers, settings.max_queued) {
+  for (const std::string& id : store_.requeue_unfinished()) jobs_.submit(id, /*beyond_limit=*/true);
+}
+
+ShapeService::Posted ShapeService::post(std::span<const std::byte> bytes, const std::string& name, std::string_view file_name,
+                                        RepairMode repair) {
+  const ContentId content = content_id(bytes, upload_options(repair));
+  if (const auto known = store_.find(content.id)) return post_known(*known);
+  // Before the mesh is read and stored: a refused upload leaves nothing behind.
+  if (jobs_.full()) throw ProblemError(api::Code::overloaded, "too many shapes wait for their preparation; try again");
+  const Surface surface = engine_.read_surface(bytes, file_name, repair, settings_.read_limits);
+  const InsertOutcome outcome = store_.insert(content, name, bytes, surface);
+  jobs_.submit(content.id, /*beyond_limit=*/true);
+  return {content.id, outcome == InsertOutcome::known};
+}
+
+ShapeService::Posted ShapeService::post_known(const ShapeRecord& record) {
+  const bool again = record.state == ShapeState::failed
+                         ? store_.requeue(record.id)
+                         : record.state == ShapeState::ready && store_.requeue_outdated(record.id, engine_.version());
+  if (again || record.state == ShapeState::queued || record.state == ShapeState::processing) submit(record.id);
+  return {record.id, !again};
+}
+
+api::Shape ShapeService::get(const std::string& id) const {
+  // The job first: one that ends in between has written its result, so progress is never seen to fall.
+  const auto job = jobs_.status(id);
+  return shape_of(record_of(id), job);
+}
+
+api::ShapePage ShapeService::list(std::size_t limit, const std::optional<std::string>& cursor) const {
+  const ShapePage page = store_.list(limit, cursor);
+  api::ShapePage result;
+  for (const ShapeRecord& record : page.shapes) result.items.push_back(shape_of(record, jobs_.status(record.id)));
+  result.next_cursor = page.next_cursor;
+  return result;
+}
+
+void ShapeService::remove(const std::string& id) {
+  if (!is_shape_id(id) || !store_.remove(id)) throw no_such_shape(id);
+  jobs_.cancel(id);
+  cache_.erase(id);
+  spdlog::info("event=shape_removed shape={}", id);
+}
+
+void ShapeService::require_usable(const std::string& id) const {
+  const ShapeRecord record = record_of(id);
+  if (record.state == ShapeState::failed) throw failed(record);
+}
+
+void ShapeService::require_ready(const std::string& id, Clock::time_point deadline) {
+  // Twice: a job may end without a result, for want of memory or because the shape was removed and uploaded again.
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    if (is_ready(id)) return;
+    submit(id);
+    if (!wait_until_finished(id, deadline)) throw not_ready(id);
+  }
+  if (!is_ready(id)) throw not_ready(id);
+}
+
+bool ShapeService::is_ready(const std::string& id) {
+  const ShapeRecord record = record_of(id);
+  if (record.state == ShapeState::failed) throw failed(record);
+  if (record.state != ShapeState::ready) return false;
+  if (record.engine == engine_.version()) return true;
+  store_.requeue_outdated(id, engine_.version());
+  return false;
+}
+
+ShapePointer ShapeService::load(const std::string& id) {
+  const ShapeRecord record = record_of(id);
+  if (record.state != ShapeState::ready || record.engine != engine_.version()) throw not_ready(id);
+  if (ShapePointer cached = cache_.find(id)) return cached;
+  try {
+    ShapePointer shape = store_.load_prepared(id);
+    cache_.put(id, shape);
+    return shape;
+  } catch (const StorageError& error) {
+    if (error.code() != StorageErrorCode::corrupt_blob && error.code() != StorageErrorCode::unknown_version) throw;
+    // The upload and its surface are blobs of their own, so what was derived from them can be made again.
+    spdlog::warn("event=prepared_shape_unreadable shape={} detail=\"{}\"", id, error.what());
+    if (store_.requeue(id)) submit(id);
+    throw not_ready(id);
+  }
+}
+
+void ShapeService::stop() { jobs_.stop(); }
+
+ShapeRecord ShapeService::record_of(const std::string& id) const {
+  auto record = is_shape_id(id) ? store_.find(id) : std::nullopt;
+  if (!record) throw no_such_shape(id);
+  return *std::move(record);
+}
+
+void ShapeService::submit(const std::string& id) {
+  switch (jobs_.submit(id)) {
+    case JobRunner::Submitted::queued:
+    case JobRunner::Submitted::already_active:
+      return;
+    case JobRunner::Submitted::full:
+      throw ProblemError(api::Code::overloaded, "too many shapes wait for their preparation; try again");
+    case JobRunner::Submitted::stopped:
+      throw ProblemError(api::Code::draining, "the server is stopping");
+  }
+}
+
+bool ShapeService::wait_until_finished(const std::string& id, Clock::time_point deadline) {
+  const bool may_wait = long_polls_.fetch_add(1) < settings_.max_long_polls;
+  const bool finished = jobs_.wait(id, may_wait ? deadline : Clock::now());
+  long_polls_.fetch_sub(1);
+  return finished;
+}
+
+void ShapeService::prepare(const std::string& id, const Progress& progress) {
+  try {
+    compute(id, progress);
+  } catch (...) {
+    record_failure(id, progress, std::current_exception());
+  }
+}
+
+void ShapeService::compute(const std::string& id, const Progress& progress) {
+  const auto record = store_.find(id);
+  if (!record || (record->state == ShapeState::ready && record->engine == engine_.version())) return;
+  store_.mark_processing(id);
+  const auto started = Clock::now();
+  spdlog::info("event=job_started shape={} vertices={}", id, record->vertices);
+  StageLog stages(id, progress);
+  const auto shape = std::make_shared<const PreprocessedShape>(engine_.preprocess(store_.load_surface(id), stages.progress()));
+  progress.check();
+  const bool saved = store_.save_prepared(id, *shape);
+  if (saved) cache_.put(id, shape);
+  spdlog::info("event=job_finished shape={} saved={} seconds={:.3f}", id, saved, seconds_since(started));
+}
+
+void ShapeService::record_failure(const std::string& id, const Progress& progress, const std::exception_ptr& exception) {
+  if (progress.stop.stop_requested()) {
+    // Removed, or the server stops: then it stays unfinished in the store and is taken up again at the next start.
+    spdlog::info("event=job_cancelled shape={}", id);
+    return;
+  }
+  const api::Problem problem = problem_of(exception).problem();
+  const std::string_view code = api::entry_of(problem.code).wire;
+  spdlog::warn("event=job_failed shape={} code={} detail=\"{}\"", id, code, problem.detail);
+  // Want of memory or space says nothing about the shape: it stays unfinished, and its next use tries again.
+  if (problem.code == api::Code::overloaded || problem.code == api::Code::insufficient_storage) return;
+  try {
+    store_.mark_failed(id, code, problem.detail);
+  } catch (const std::exception& error) {
+    spdlog::error("event=failure_not_stored shape={} detail=\"{}\"", id, error.what());
+  }
+}
+
+}  // namespace spherematch

@@ -1,0 +1,86 @@
+// Shapes from upload to prepared: the store, the preparation jobs and the cache of decoded shapes in one place.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <exception>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "api/types.h"
+#include "server/engine_port.h"
+#include "server/job_runner.h"
+#include "server/shape_cache.h"
+#include "storage/shape_store.h"
+
+namespace spherematch {
+
+struct ShapeServiceSettings {
+  std::size_t workers = 1;
+  std::size_t max_queued = 1000;
+  std::size_t max_long_polls = 24;  ///< further waiters are answered at once
+  std::size_t cache_bytes = std::size_t{256} << 20;
+  ReadLimits read_limits;
+};
+
+/// Thread-safe. Errors are thrown as ProblemError, EngineError or StorageError.
+class ShapeService {
+ public:
+  using Clock = JobRunner::Clock;
+
+  /// Store and engine must outlive this. Shapes that the store holds unfinished are queued at once.
+  ShapeService(ShapeStore& store, const EnginePort& engine, const ShapeServiceSettings& settings);
+
+  struct Posted {
+    std::string id;
+    bool known = false;  ///< nothing new is computed for this upload
+  };
+  /// Reads and checks the mesh, stores it and queues its preparation. Known bytes are neither read nor stored again; one that
+  /// failed, or that an older engine prepared, is queued again. `file_name` may help to recognise the format.
+  [[nodiscard]] Posted post(std::span<const std::byte> bytes, const std::string& name, std::string_view file_name, RepairMode repair);
+
+  /// Waits until no preparation of the shape is under way here; false when that did not happen in time. Beyond the bound of
+  /// long polls it does not wait.
+  bool wait_until_finished(const std::string& id, Clock::time_point deadline);
+
+  /// @throws ProblemError(not_found)
+  [[nodiscard]] api::Shape get(const std::string& id) const;
+  [[nodiscard]] api::ShapePage list(std::size_t limit, const std::optional<std::string>& cursor) const;
+  /// Cancels the preparation and removes the shape with everything derived from it. @throws ProblemError(not_found)
+  void remove(const std::string& id);
+
+  /// @throws ProblemError(not_found), ProblemError(shape_failed)
+  void require_usable(const std::string& id) const;
+  /// Waits until the shape is ready for this engine, queueing its preparation where needed.
+  /// @throws ProblemError(not_found, shape_failed, shape_not_ready, overloaded, draining)
+  void require_ready(const std::string& id, Clock::time_point deadline);
+  /// The decoded shape. @throws ProblemError(shape_not_ready) when it is not ready (any more)
+  [[nodiscard]] ShapePointer load(const std::string& id);
+
+  [[nodiscard]] JobRunner::Counts job_counts() const { return jobs_.counts(); }
+
+  /// Cancels the jobs and wakes all waiters; returns when the workers are idle.
+  void stop();
+
+ private:
+  [[nodiscard]] ShapeRecord record_of(const std::string& id) const;
+  void prepare(const std::string& id, const Progress& progress);
+  void compute(const std::string& id, const Progress& progress);
+  void record_failure(const std::string& id, const Progress& progress, const std::exception_ptr& exception);
+  void submit(const std::string& id);
+  /// False where it has to be prepared first, also because an older engine did. @throws ProblemError(not_found, shape_failed)
+  bool is_ready(const std::string& id);
+  Posted post_known(const ShapeRecord& record);
+
+  ShapeStore& store_;
+  const EnginePort& engine_;
+  const ShapeServiceSettings settings_;
+  ShapeCache cache_;
+  std::atomic<std::size_t> long_polls_ = 0;
+  JobRunner jobs_;  ///< last: its workers use everything above
+};
+
+}  // namespace spherematch

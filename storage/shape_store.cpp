@@ -1,0 +1,289 @@
+#include "storage/shape_store.h"
+
+#include <SQLiteCpp/Database.h>
+#include <SQLiteCpp/Exception.h>
+#include <SQLiteCpp/Statement.h>
+#include <SQLiteCpp/Transaction.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <new>
+
+#include "storage/blob_codec.h"
+#include "storage/connection_pool.h"
+#include "storage/shape_rows.h"
+
+namespace spherematch {
+namespace {
+
+[[noreturn]] void rethrow(const SQLite::Exception& error) {
+  switch (error.getErrorCode()) {
+    case SQLITE_NOMEM:
+      throw std::bad_alloc();
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      throw StorageError(StorageErrorCode::busy, "the store is locked by another process");
+    case SQLITE_FULL:
+      throw StorageError(StorageErrorCode::full, "there is no space left for the store");
+    case SQLITE_TOOBIG:
+      throw StorageError(StorageErrorCode::too_large, "too large for the store");
+    case SQLITE_NOTADB:
+      throw StorageError(StorageErrorCode::not_a_store, "the store's file is not a database");
+    default:
+      throw StorageError(StorageErrorCode::io, std::string("the store cannot be used: ") + error.what());
+  }
+}
+
+/// Runs use(database) in a transaction whose reads agree with each other.
+template <typename Use>
+auto read(ConnectionPool& pool, Use use) {
+  try {
+    const ConnectionPool::Lease lease = pool.lease();
+    const SQLite::Transaction transaction(*lease);
+    return use(*lease);
+  } catch (const SQLite::Exception& error) {
+    rethrow(error);
+  }
+}
+
+/// Runs use(database) in a transaction and commits it. The write lock is taken at the start, so that a decision made on what
+/// was read stays right, and waiting for it never fails half-way.
+template <typename Use>
+auto write(ConnectionPool& pool, Use use) {
+  try {
+    const std::lock_guard lock(pool.write_mutex());
+    const ConnectionPool::Lease lease = pool.lease();
+    SQLite::Transaction transaction(*lease, SQLite::TransactionBehavior::IMMEDIATE);
+    auto result = use(*lease);
+    transaction.commit();
+    return result;
+  } catch (const SQLite::Exception& error) {
+    rethrow(error);
+  }
+}
+
+ShapeRow existing_row(SQLite::Database& database, std::string_view id) {
+  auto row = find_row(database, id);
+  if (!row) throw StorageError(StorageErrorCode::not_found, "there is no shape \"" + std::string(id) + "\"");
+  return *std::move(row);
+}
+
+template <typename Decode>
+auto load(SQLite::Database& database, Sequence shape, BlobKind kind, Decode decode) {
+  decltype(decode(BlobView{})) result;
+  read_blob(database, shape, kind, [&](BlobView blob) { result = decode(blob); });
+  return result;
+}
+
+bool requeue_where(ConnectionPool& pool, std::string_view id, const std::function<bool(const ShapeRecord&)>& wanted) {
+  const auto wanted_row = [&](SQLite::Database& database) {
+    auto row = find_row(database, id);
+    return row && wanted(row->record) ? std::optional(row->sequence) : std::nullopt;
+  };
+  // Asked without the write lock first: every match asks whether its shapes are outdated, and nearly always they are not.
+  if (!read(pool, wanted_row)) return false;
+  return write(pool, [&](SQLite::Database& database) {
+    const auto shape = wanted_row(database);
+    if (shape) clear_prepared(database, *shape);
+    return shape.has_value();
+  });
+}
+
+std::vector<std::string> unfinished_ids(SQLite::Database& database) {
+  SQLite::Statement query(database, "SELECT id FROM shapes WHERE state IN ('queued', 'processing') ORDER BY sequence");
+  std::vector<std::string> ids;
+  while (query.executeStep()) ids.push_back(query.getColumn(0).getString());
+  return ids;
+}
+
+Sequence parse_cursor(const std::optional<std::string>& cursor) {
+  if (!cursor) return std::numeric_limits<Sequence>::max();
+  Sequence before = 0;
+  const char* end = cursor->data() + cursor->size();
+  const auto [stop, error] = std::from_chars(cursor->data(), end, before);
+  if (error != std::errc() || stop != end || before < 1) {
+    throw StorageError(StorageErrorCode::invalid_cursor, "the cursor is not one that a page of shapes gave out");
+  }
+  return before;
+}
+
+}  // namespace
+
+std::string_view to_string(ShapeState state) {
+  switch (state) {
+    case ShapeState::queued:
+      return "queued";
+    case ShapeState::processing:
+      return "processing";
+    case ShapeState::ready:
+      return "ready";
+    case ShapeState::failed:
+      break;
+  }
+  return "failed";
+}
+
+ShapeStore::ShapeStore(const std::filesystem::path& file, std::chrono::milliseconds busy_timeout) {
+  try {
+    pool_ = std::make_unique<ConnectionPool>(file, busy_timeout);
+  } catch (const SQLite::Exception& error) {
+    if (error.getErrorCode() == SQLITE_NOTADB) {
+      throw StorageError(StorageErrorCode::not_a_store, "\"" + file.string() + "\" is not a database");
+    }
+    rethrow(error);
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw StorageError(StorageErrorCode::io, std::string("the store's directory cannot be made: ") + error.what());
+  }
+}
+
+ShapeStore::~ShapeStore() = default;
+
+InsertOutcome ShapeStore::insert(const ContentId& content, std::string_view name, std::span<const std::byte> upload,
+                                 const Surface& surface) {
+  const Blob upload_blob = encode_upload(upload);
+  const Blob surface_blob = encode_surface(surface);
+  return write(*pool_, [&](SQLite::Database& database) {
+    if (const auto known = find_row(database, content.id)) {
+      if (known->record.state != ShapeState::failed) return InsertOutcome::known;
+      clear_prepared(database, known->sequence);
+      return InsertOutcome::queued_again;
+    }
+    const Sequence shape = insert_row(database, content, name, surface);
+    write_blob(database, shape, BlobKind::upload, upload_blob);
+    write_blob(database, shape, BlobKind::surface, surface_blob);
+    return InsertOutcome::inserted;
+  });
+}
+
+std::optional<ShapeRecord> ShapeStore::find(std::string_view id) const {
+  return read(*pool_, [&](SQLite::Database& database) -> std::optional<ShapeRecord> {
+    auto row = find_row(database, id);
+    if (!row) return std::nullopt;
+    return std::move(row->record);
+  });
+}
+
+ShapePage ShapeStore::list(std::size_t limit, const std::optional<std::string>& cursor) const {
+  const Sequence before = parse_cursor(cursor);
+  // One more than asked for tells whether a next page exists.
+  const auto wanted = static_cast<std::int64_t>(std::clamp<std::size_t>(limit, 1, std::numeric_limits<std::int32_t>::max())) + 1;
+  auto rows = read(*pool_, [&](SQLite::Database& database) { return rows_before(database, before, wanted); });
+  ShapePage page;
+  if (static_cast<std::int64_t>(rows.size()) == wanted) {
+    rows.pop_back();
+    page.next_cursor = std::to_string(rows.back().sequence);
+  }
+  page.shapes.reserve(rows.size());
+  for (ShapeRow& row : rows) page.shapes.push_back(std::move(row.record));
+  return page;
+}
+
+bool ShapeStore::remove(std::string_view id) {
+  return write(*pool_, [&](SQLite::Database& database) {
+    SQLite::Statement statement(database, "DELETE FROM shapes WHERE id = ?");  // foreign keys remove the rest
+    statement.bind(1, std::string(id));
+    return statement.exec() > 0;
+  });
+}
+
+bool ShapeStore::mark_processing(std::string_view id) {
+  return write(*pool_, [&](SQLite::Database& database) {
+    SQLite::Statement statement(database, "UPDATE shapes SET state = 'processing' WHERE id = ? AND state = 'queued'");
+    statement.bind(1, std::string(id));
+    return statement.exec() > 0;
+  });
+}
+
+bool ShapeStore::mark_failed(std::string_view id, std::string_view code, std::string_view detail) {
+  return write(*pool_, [&](SQLite::Database& database) {
+    SQLite::Statement statement(database,
+                                "UPDATE shapes SET state = 'failed', error_code = ?, error_detail = ? "
+                                "WHERE id = ? AND state IN ('queued', 'processing')");
+    statement.bind(1, std::string(code));
+    statement.bind(2, std::string(detail));
+    statement.bind(3, std::string(id));
+    return statement.exec() > 0;
+  });
+}
+
+bool ShapeStore::save_prepared(std::string_view id, const PreprocessedShape& shape) {
+  const Blob surface = encode_surface(shape.surface);
+  const Blob sphere = encode_sphere(shape.sphere);
+  const Blob signals = encode_signals(shape.signals);
+  const Blob eigenbasis = encode_eigenbasis(shape.eigenvalues, shape.eigenvectors);
+  return write(*pool_, [&](SQLite::Database& database) {
+    const auto row = find_row(database, id);
+    if (!row) return false;
+    update_surface(database, row->sequence, shape.surface);
+    update_prepared(database, row->sequence, shape);
+    write_blob(database, row->sequence, BlobKind::surface, surface);
+    write_blob(database, row->sequence, BlobKind::sphere, sphere);
+    write_blob(database, row->sequence, BlobKind::signals, signals);
+    write_blob(database, row->sequence, BlobKind::eigenbasis, eigenbasis);
+    return true;
+  });
+}
+
+bool ShapeStore::requeue(std::string_view id) {
+  return requeue_where(*pool_, id,
+                       [](const ShapeRecord& record) { return record.state == ShapeState::ready || record.state == ShapeState::failed; });
+}
+
+bool ShapeStore::requeue_outdated(std::string_view id, std::string_view current_engine) {
+  return requeue_where(*pool_, id,
+                       [&](const ShapeRecord& record) { return record.state == ShapeState::ready && record.engine != current_engine; });
+}
+
+std::vector<std::string> ShapeStore::requeue_unfinished() {
+  return write(*pool_, [](SQLite::Database& database) {
+    database.exec("UPDATE shapes SET state = 'queued' WHERE state = 'processing'");
+    return unfinished_ids(database);
+  });
+}
+
+std::vector<std::string> ShapeStore::unfinished() const {
+  return read(*pool_, [](SQLite::Database& database) { return unfinished_ids(database); });
+}
+
+std::vector<std::byte> ShapeStore::load_upload(std::string_view id) const {
+  return read(*pool_, [&](SQLite::Database& database) {
+    return load(database, existing_row(database, id).sequence, BlobKind::upload, decode_upload);
+  });
+}
+
+Surface ShapeStore::load_surface(std::string_view id) const {
+  return read(*pool_, [&](SQLite::Database& database) {
+    return load(database, existing_row(database, id).sequence, BlobKind::surface, decode_surface);
+  });
+}
+
+std::shared_ptr<const PreprocessedShape> ShapeStore::load_prepared(std::string_view id) const {
+  return read(*pool_, [&](SQLite::Database& database) -> std::shared_ptr<const PreprocessedShape> {
+    ShapeRow row = existing_row(database, id);
+    if (row.record.state != ShapeState::ready || !row.record.sphere) {
+      throw StorageError(StorageErrorCode::not_found, "shape \"" + row.record.id + "\" is not prepared");
+    }
+    auto shape = std::make_shared<PreprocessedShape>();
+    shape->surface = load(database, row.sequence, BlobKind::surface, decode_surface);
+    shape->sphere = load(database, row.sequence, BlobKind::sphere, decode_sphere);
+    shape->signals = load(database, row.sequence, BlobKind::signals, decode_signals);
+    StoredEigenbasis basis = load(database, row.sequence, BlobKind::eigenbasis, decode_eigenbasis);
+    const Eigen::Index vertices = shape->surface.mesh.vertex_count();
+    if (shape->sphere.rows() != vertices || basis.eigenvectors.rows() != vertices ||
+        basis.eigenvectors.cols() != basis.eigenvalues.size()) {
+      throw StorageError(StorageErrorCode::corrupt_blob, "the parts of shape \"" + row.record.id + "\" differ in size");
+    }
+    shape->eigenvalues = std::move(basis.eigenvalues);
+    shape->eigenvectors = std::move(basis.eigenvectors);
+    shape->sphere_quality = *row.record.sphere;
+    shape->seconds = std::move(row.record.seconds);
+    shape->engine = std::move(row.record.engine);
+    return shape;
+  });
+}
+
+}  // namespace spherematch

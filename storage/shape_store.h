@@ -1,0 +1,115 @@
+// Keeps shapes in one SQLite file: the upload, the repaired surface, and what preprocessing made of it.
+//
+// Thread-safe, and safe beside other processes on the same file. Every change is one transaction that is on the disk when the
+// function returns; a process killed at any moment leaves each shape either as before or as after. Every function throws
+// StorageError: `busy`, `full` or `io` for what happens to the file, `corrupt_blob` or `unknown_version` where it reads a
+// blob, and what is named at it. An id that is not stored is `not_found` or `false`, as each function says.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/data/preprocessed_shape.h"
+#include "storage/content_id.h"
+#include "storage/error.h"
+
+namespace spherematch {
+
+class ConnectionPool;
+
+enum class ShapeState { queued, processing, ready, failed };
+
+/// "queued", "processing", "ready" or "failed".
+[[nodiscard]] std::string_view to_string(ShapeState state);
+
+/// Everything about a shape except its arrays.
+struct ShapeRecord {
+  std::string id;
+  std::string name;  ///< of the first upload; may be empty
+  std::string sha256;
+  std::string options;
+  ShapeState state = ShapeState::queued;
+  std::int32_t vertices = 0;  ///< of the upload
+  std::int32_t faces = 0;     ///< polygons of the upload
+  RepairReport repair;
+  std::optional<SphereQuality> sphere;  ///< once ready
+  StageSeconds seconds;                 ///< once ready
+  std::string engine;                   ///< once ready: the engine version that prepared it
+  std::string error_code;               ///< once failed: a stable code
+  std::string error_detail;             ///< once failed: a sentence
+  std::string created_at;               ///< RFC 3339, UTC, of the first upload
+};
+
+enum class InsertOutcome {
+  inserted,      ///< new; queued
+  known,         ///< already there; nothing changed
+  queued_again,  ///< was failed; queued, its error forgotten
+};
+
+struct ShapePage {
+  std::vector<ShapeRecord> shapes;         ///< newest first
+  std::optional<std::string> next_cursor;  ///< engaged when older shapes remain
+};
+
+class ShapeStore {
+ public:
+  /// Opens the file, creating it and its directory where missing, and migrates an older schema. A write waits for another
+  /// process's write for up to `busy_timeout`, by default far above what the longest write takes.
+  /// @throws StorageError(not_a_store, newer_schema)
+  explicit ShapeStore(const std::filesystem::path& file, std::chrono::milliseconds busy_timeout = std::chrono::seconds(30));
+  ~ShapeStore();
+  ShapeStore(const ShapeStore&) = delete;
+  ShapeStore& operator=(const ShapeStore&) = delete;
+
+  /// Stores an upload and its surface under `content.id`. Idempotent: of concurrent inserts one is `inserted`.
+  /// @throws StorageError(too_large)
+  InsertOutcome insert(const ContentId& content, std::string_view name, std::span<const std::byte> upload, const Surface& surface);
+
+  [[nodiscard]] std::optional<ShapeRecord> find(std::string_view id) const;
+
+  /// At most `limit` (at least 1) shapes, newest first, from the cursor of the page before or from the newest on. Shapes
+  /// inserted or removed between two pages neither repeat nor hide another.
+  /// @throws StorageError(invalid_cursor)
+  [[nodiscard]] ShapePage list(std::size_t limit, const std::optional<std::string>& cursor = std::nullopt) const;
+
+  /// Removes a shape and everything derived from it; false when it is not there.
+  bool remove(std::string_view id);
+
+  // Preparation. Each returns whether the change was made, so that one of several workers wins.
+
+  bool mark_processing(std::string_view id);                                              ///< queued -> processing
+  bool mark_failed(std::string_view id, std::string_view code, std::string_view detail);  ///< queued, processing -> failed
+  /// Any state -> ready; false, with nothing stored, when the shape was removed meanwhile. `shape.surface` takes the place of
+  /// the stored one, since another engine version may repair an upload differently.
+  /// @throws StorageError(too_large)
+  bool save_prepared(std::string_view id, const PreprocessedShape& shape);
+
+  /// Ready or failed -> queued; what was prepared is dropped. For a preparation that turns out to be unreadable.
+  bool requeue(std::string_view id);
+  /// requeue() of a ready shape that was prepared by another engine version than the given one.
+  bool requeue_outdated(std::string_view id, std::string_view current_engine);
+  /// Processing -> queued, for the start of a server: whoever processed these is gone. Returns all queued ids, oldest first.
+  std::vector<std::string> requeue_unfinished();
+  /// Ids that are queued or processing, oldest first.
+  [[nodiscard]] std::vector<std::string> unfinished() const;
+
+  /// The uploaded bytes. @throws StorageError(not_found)
+  [[nodiscard]] std::vector<std::byte> load_upload(std::string_view id) const;
+  /// @throws StorageError(not_found)
+  [[nodiscard]] Surface load_surface(std::string_view id) const;
+  /// Bit for bit what save_prepared() got. @throws StorageError(not_found) also when the shape is not ready
+  [[nodiscard]] std::shared_ptr<const PreprocessedShape> load_prepared(std::string_view id) const;
+
+ private:
+  std::unique_ptr<ConnectionPool> pool_;
+};
+
+}  // namespace spherematch

@@ -1,0 +1,13 @@
+// The options of an upload that change what a shape is made of, as the canonical text that goes into its id.
+#pragma once
+
+#include <string>
+
+#include "engine/data/surface.h"
+
+namespace spherematch {
+
+/// Server and command line use the same text, so that they find each other's shapes. It is stored: never change it.
+[[nodiscard]] inline std::string upload_options(RepairMode repair) { return repair == RepairMode::fill ? "repair=fill" : "repair=none"; }
+
+}  // namespace spherematch

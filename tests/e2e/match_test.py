@@ -1,0 +1,140 @@
+"""Matches in every format: what they contain, that they agree, and that their bytes stay the same."""
+import json
+import math
+import threading
+import time
+import unittest
+
+import support
+
+SRC = support.bumpy(3)
+TGT = support.bumpy(3, 1.0)
+
+
+class MatchTest(support.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        import tempfile
+        cls.temporary = tempfile.TemporaryDirectory(prefix='spherematch-e2e-')
+        cls.server = support.Server(cls.temporary.name + '/s.db', '--threads', '2')
+        cls.src, cls.tgt = cls.server.ready(support.off(SRC)), cls.server.ready(support.off(TGT))
+
+    @classmethod
+    def tearDownClass(cls):
+        code = cls.server.stop()
+        cls.temporary.cleanup()
+        assert code == 0, code
+
+    def match(self, headers=None, server=None, **query):
+        return (server or self.server).get('/match', headers=headers, src=self.src, tgt=self.tgt, **query)
+
+    def test_formats_agree(self):
+        whole = self.match(fields='vertex,corners,bary').json()
+        npz = support.read_npz(self.match(format='npz').body)
+        self.assertEqual({name: kind for name, (kind, _) in npz.items()}, {'vertex': '<i4', 'corners': '<i4', 'bary': '<f4'})
+        self.assertEqual(npz['vertex'][1], whole['vertex'])
+        self.assertEqual(npz['corners'][1], whole['corners'])
+        import struct
+        as_float = [[struct.unpack('<f', struct.pack('<f', x))[0] for x in row] for row in whole['bary']]
+        self.assertEqual(npz['bary'][1], as_float)
+        self.assertEqual(support.read_npy(self.match(format='npy').body), ('<i4', whole['vertex']))
+        self.assertEqual([int(line) for line in self.match(format='txt').body.split()], whole['vertex'])
+
+    def test_the_map_is_sound(self):
+        result = self.match(fields='vertex,corners,bary').json()
+        self.assertEqual((result['src'], result['tgt']), (self.src, self.tgt))
+        self.assertEqual((result['n_src'], result['n_tgt']), (len(SRC[0]), len(TGT[0])))
+        faces = {frozenset(face) for face in TGT[1]}
+        for vertex, corners, bary in zip(result['vertex'], result['corners'], result['bary'], strict=True):
+            self.assertIn(frozenset(corners), faces)
+            self.assertAlmostEqual(sum(bary), 1, places=5)
+            self.assertGreaterEqual(min(bary), 0)
+            image = [sum(w * TGT[0][c][k] for w, c in zip(bary, corners)) for k in range(3)]
+            distance = {c: math.dist(image, TGT[0][c]) for c in corners}
+            self.assertLessEqual(distance[vertex], min(distance.values()) + 1e-6)
+        self.assertEqual([c['chosen'] for c in result['candidates']].count(True), 1)
+        self.assertIs(result['cached'], False)
+        self.assertGreater(result['seconds']['total'], 0)
+        for stage in ('rotation', 'flow', 'correspondence'):
+            self.assertIn(stage, result['seconds'])
+
+    def test_the_map_is_good(self):
+        """Both meshes share their numbering and differ little, so that vertex i belongs near vertex i."""
+        vertex = self.match().json()['vertex']
+        errors = sorted(math.dist(TGT[0][i], TGT[0][j]) for i, j in enumerate(vertex))
+        self.assertLess(errors[len(errors) // 2], 0.25)
+
+    def test_the_accept_header_negotiates(self):
+        self.assertEqual(self.match(headers={'Accept': 'text/plain'}).headers['Content-Type'], 'text/plain')
+        self.assertEqual(self.match(headers={'Accept': 'application/x-npz;q=0.5, application/x-npy'}).headers['Content-Type'],
+                         'application/x-npy')
+        self.assertEqual(self.match(headers={'Accept': 'text/html,*/*;q=0.8'}).headers['Content-Type'], 'application/json')
+        problem = self.assert_problem(self.match(headers={'Accept': 'image/png'}), 406, 'not-acceptable')
+        self.assertIn('application/x-npz', problem['detail'])
+        self.assertEqual(self.match(headers={'Accept': 'image/png'}, format='txt').status, 200)
+
+    def test_parameters_are_checked(self):
+        for wrong in ({'bogus': '1'}, {'format': 'exe'}, {'fields': 'x'}, {'wait': 'x'}, {'cache': 'x'}, {'method': 'x'}):
+            self.assert_problem(self.match(**wrong), 400, 'invalid-parameter')
+        self.assert_problem(self.server.get('/match', src=self.src), 400, 'invalid-parameter')
+        self.assertEqual(self.match(cache='no', method='paper', wait='1').status, 200)
+
+    def test_a_tag_spares_the_computation(self):
+        first = self.match(format='npz')
+        tag = first.headers['ETag']
+        self.assertTrue(tag.startswith('W/"'))
+        spared = self.match(format='npz', headers={'If-None-Match': tag})
+        self.assertEqual((spared.status, spared.body, spared.headers['ETag']), (304, b'', tag))
+        self.assertEqual(self.match(format='npy', headers={'If-None-Match': tag}).status, 200)
+        self.assertIn('rotation;dur=', first.headers['Server-Timing'])
+        self.assertIsNone(spared.headers['Server-Timing'])
+
+    def test_sphere(self):
+        kind, rows = support.read_npy(self.server.get(f'/shapes/{self.src}/sphere', format='npy').body)
+        self.assertEqual((kind, len(rows)), ('<f8', len(SRC[0])))
+        for row in rows:
+            self.assertAlmostEqual(math.hypot(*row), 1, places=9)
+
+    def test_the_same_bytes_again_after_a_restart_and_with_another_thread_count(self):
+        formats = ('npz', 'npy', 'txt')
+        fields = 'vertex,corners,bary'
+
+        def stable(server):
+            answer = json.loads(self.match(server=server, fields=fields).body)
+            del answer['seconds'], answer['cached']
+            return [self.match(server=server, format=f).body for f in formats] + [json.dumps(answer)]
+
+        expected = stable(self.server)
+        self.assertEqual(stable(self.server), expected)
+        store = self.directory() + '/s.db'
+        for threads in ('1', '2'):
+            server = self.serve(store, '--threads', threads)
+            self.assertEqual((server.ready(support.off(SRC)), server.ready(support.off(TGT))), (self.src, self.tgt))
+            self.assertEqual(stable(server), expected)
+            self.assertEqual(server.stop(), 0)
+            prepared = [line for line in server.log if 'job_started' in line]
+            self.assertEqual(len(prepared), 2 if threads == '1' else 0)
+
+    def test_health_answers_while_matches_run(self):
+        stop = threading.Event()
+
+        def load():
+            while not stop.is_set():
+                self.match(format='npz')
+
+        threads = [threading.Thread(target=load) for _ in range(6)]
+        for thread in threads:
+            thread.start()
+        slowest = 0
+        for _ in range(20):
+            start = time.monotonic()
+            self.assertEqual(self.server.get('/healthz').status, 200)
+            slowest = max(slowest, time.monotonic() - start)
+        stop.set()
+        for thread in threads:
+            thread.join()
+        self.assertLess(slowest, 2)
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,94 @@
+#include "server/router.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "api/json.h"
+
+namespace spherematch {
+namespace {
+
+class RouterTest : public ::testing::Test {
+ protected:
+  RouterTest() {
+    const auto named = [](const std::string& name) {
+      return [name](HttpRequest& request) {
+        return HttpResponse{200, "text/plain", name + ":" + request.id + ":" + request.upload.bytes, {}};
+      };
+    };
+    router.add("GET", "/", named("root"));
+    router.add("POST", "/things", named("post"), Body::upload);
+    router.add("GET", "/things", named("list"));
+    router.add("GET", "/things/{id}", named("get"));
+    router.add("DELETE", "/things/{id}", named("delete"));
+    router.add("GET", "/things/{id}/part", named("part"));
+    router.add("GET", "/broken", [](HttpRequest&) -> HttpResponse { throw std::runtime_error("oops"); });
+  }
+
+  HttpResponse call(const std::string& method, const std::string& path) {
+    HttpRequest request;
+    request.method = method;
+    request.path = path;
+    request.request_id = "r1";
+    return router.handle(request, [this](HttpRequest& r) {
+      ++bodies_read;
+      r.upload.bytes = "body";
+    });
+  }
+
+  Router router;
+  int bodies_read = 0;
+};
+
+TEST_F(RouterTest, FindsHandlersAndIds) {
+  EXPECT_EQ(call("GET", "/").body, "root::");
+  EXPECT_EQ(call("GET", "/things").body, "list::");
+  EXPECT_EQ(call("GET", "/things/a b").body, "get:a b:");
+  EXPECT_EQ(call("DELETE", "/things/x").body, "delete:x:");
+  EXPECT_EQ(call("GET", "/things/x/part").body, "part:x:");
+  EXPECT_EQ(call("HEAD", "/things/x").body, "get:x:");
+}
+
+TEST_F(RouterTest, ReadsABodyOnlyForRoutesThatTakeOne) {
+  EXPECT_EQ(call("POST", "/things").body, "post::body");
+  EXPECT_EQ(bodies_read, 1);
+  call("POST", "/nowhere");
+  call("GET", "/things");
+  call("POST", "/things/x");
+  EXPECT_EQ(bodies_read, 1);
+}
+
+TEST_F(RouterTest, UnknownPathsAreNotFound) {
+  for (const char* path : {"", "/x", "/things/", "/things//part", "/things/x/", "/things/x/part/", "/things/x/y", "//", "/part"}) {
+    const HttpResponse response = call("GET", path);
+    EXPECT_EQ(response.status, 404) << path;
+    EXPECT_EQ(api::from_text<api::Problem>(response.body).code, api::Code::not_found);
+  }
+}
+
+TEST_F(RouterTest, WrongMethodsNameTheRightOnes) {
+  const auto allow = [&](const std::string& method, const std::string& path) {
+    const HttpResponse response = call(method, path);
+    EXPECT_EQ(response.status, 405);
+    return response.headers.empty() ? std::string() : response.headers.front().first + ": " + response.headers.front().second;
+  };
+  EXPECT_EQ(allow("PUT", "/things"), "Allow: POST, GET, HEAD");
+  EXPECT_EQ(allow("POST", "/things/x"), "Allow: GET, HEAD, DELETE");
+  EXPECT_EQ(allow("OPTIONS", "/"), "Allow: GET, HEAD");
+}
+
+TEST_F(RouterTest, WhatAHandlerThrowsBecomesAProblem) {
+  const HttpResponse response = call("GET", "/broken");
+  EXPECT_EQ(response.status, 500);
+  EXPECT_EQ(api::from_text<api::Problem>(response.body).request_id, "r1");
+}
+
+TEST_F(RouterTest, PatternsForLogs) {
+  EXPECT_EQ(router.pattern_of("/things/secret/part"), "/things/{id}/part");
+  EXPECT_EQ(router.pattern_of("/nowhere"), "-");
+  EXPECT_EQ(router.upload_patterns(), std::vector<std::string>{"/things"});
+}
+
+}  // namespace
+}  // namespace spherematch

@@ -1,0 +1,159 @@
+#include <cstring>
+
+#include "tests/server/test_service.h"
+
+namespace spherematch {
+namespace {
+
+class RoutesMatch : public testing::TestService {
+ protected:
+  std::string src = ready("sphere a");
+  std::string tgt = ready("sphere b");
+
+  HttpResponse match(std::multimap<std::string, std::string> query = {}, std::map<std::string, std::string> headers = {}) {
+    query.emplace("src", src);
+    query.emplace("tgt", tgt);
+    return call({.method = "GET", .path = "/match", .query = std::move(query), .body = {}, .file_name = {}, .headers = std::move(headers)});
+  }
+};
+
+TEST_F(RoutesMatch, JsonCarriesTheSelectedFields) {
+  const HttpResponse plain = match();
+  EXPECT_EQ(plain.status, 200);
+  EXPECT_EQ(plain.content_type, "application/json");
+  EXPECT_EQ(header(plain, "Server-Timing"), "rotation;dur=125.0, total;dur=125.0");
+  const auto result = api::from_text<api::Match>(plain.body);
+  EXPECT_EQ(result.src, src);
+  EXPECT_EQ(result.tgt, tgt);
+  EXPECT_EQ(result.n_src, 5);
+  EXPECT_EQ(result.n_tgt, 5);
+  EXPECT_EQ(*result.vertex, (std::vector<std::int32_t>{1, 2, 3, 4, 0}));
+  EXPECT_FALSE(result.corners || result.bary);
+  EXPECT_FALSE(result.cached);
+  EXPECT_EQ(result.engine, "stub-1");
+
+  const auto whole = api::from_text<api::Match>(match({{"fields", "vertex,corners,bary"}}).body);
+  EXPECT_EQ(whole.corners->at(0), (std::array<std::int32_t, 3>{1, 0, 1}));
+  EXPECT_EQ(whole.bary->at(4), (std::array<float, 3>{0.5F, 0.3F, 0.2F}));
+}
+
+TEST_F(RoutesMatch, EveryRepresentationByParameterAndByHeader) {
+  for (const auto& [format, type] :
+       {std::pair{"json", "application/json"}, {"npz", "application/x-npz"}, {"npy", "application/x-npy"}, {"txt", "text/plain"}}) {
+    const HttpResponse by_parameter = match({{"format", format}});
+    const HttpResponse by_header = match({}, {{"accept", type}});
+    EXPECT_EQ(by_parameter.content_type, type);
+    EXPECT_EQ(by_parameter.body, by_header.body);
+    EXPECT_EQ(header(by_parameter, "ETag"), header(by_header, "ETag"));
+    EXPECT_EQ(header(by_parameter, "Vary"), "Accept");
+  }
+  EXPECT_EQ(match({{"format", "txt"}}).body, "1\n2\n3\n4\n0\n");
+  EXPECT_EQ(match({{"format", "npz"}}).body.substr(0, 2), "PK");
+  std::int32_t vertex[5];
+  const std::string npy = match({{"format", "npy"}}).body;
+  std::memcpy(vertex, npy.data() + npy.size() - sizeof vertex, sizeof vertex);
+  EXPECT_EQ(vertex[3], 4);
+}
+
+TEST_F(RoutesMatch, ParametersAreChecked) {
+  EXPECT_EQ(problem_code(match({{"bogus", "1"}})), api::Code::invalid_parameter);
+  EXPECT_NE(match({{"bogus", "1"}}).body.find("src, tgt, format, fields, wait, cache, method"), std::string::npos);
+  EXPECT_EQ(problem_code(match({{"format", "exe"}})), api::Code::invalid_parameter);
+  EXPECT_EQ(problem_code(match({{"fields", "faces"}})), api::Code::invalid_parameter);
+  EXPECT_EQ(problem_code(match({{"fields", "vertex"}, {"format", "npz"}})), api::Code::invalid_parameter);
+  EXPECT_EQ(problem_code(match({{"cache", "maybe"}})), api::Code::invalid_parameter);
+  EXPECT_EQ(problem_code(match({{"method", "best"}})), api::Code::invalid_parameter);
+  EXPECT_EQ(problem_code(match({{"wait", "-1"}})), api::Code::invalid_parameter);
+  EXPECT_EQ(problem_code(match({}, {{"accept", "image/png"}})), api::Code::not_acceptable);
+  EXPECT_EQ(problem_code(get("/match", {{"src", src}})), api::Code::invalid_parameter);
+  EXPECT_EQ(problem_code(get("/match", {{"src", src}, {"tgt", std::string(32, '0')}})), api::Code::not_found);
+  EXPECT_EQ(engine.matches, 0);
+  EXPECT_EQ(match({{"cache", "no"}}).status, 200);
+}
+
+TEST_F(RoutesMatch, MethodSelectsTheParameters) {
+  const auto scored = [&](const std::string& method) {
+    return api::from_text<api::Match>(match({{"method", method}}).body).candidates.at(0).score;
+  };
+  EXPECT_EQ(scored("default"), MatchParameters{}.max_candidates);
+  EXPECT_EQ(scored("paper"), MatchParameters::paper().max_candidates);
+}
+
+TEST_F(RoutesMatch, ATagSparesTheComputation) {
+  const std::string tag = header(match({{"format", "npz"}}), "ETag");
+  EXPECT_EQ(engine.matches, 1);
+  const HttpResponse spared = match({{"format", "npz"}}, {{"if-none-match", tag}});
+  EXPECT_EQ(spared.status, 304);
+  EXPECT_EQ(spared.body, "");
+  EXPECT_EQ(header(spared, "ETag"), tag);
+  EXPECT_EQ(engine.matches, 1);
+}
+
+TEST_F(RoutesMatch, TheTagTellsResultsApart) {
+  const std::string plain = header(match(), "ETag");
+  EXPECT_EQ(header(match({{"wait", "3"}}), "ETag"), plain);
+  EXPECT_EQ(header(match({{"cache", "no"}}), "ETag"), plain);
+  EXPECT_EQ(header(match({{"fields", "vertex"}}), "ETag"), plain);
+  EXPECT_NE(header(match({{"fields", "bary"}}), "ETag"), plain);
+  EXPECT_NE(header(match({{"format", "npz"}}), "ETag"), plain);
+  std::swap(src, tgt);
+  EXPECT_NE(header(match(), "ETag"), plain);
+  std::swap(src, tgt);
+  engine.version_text = "stub-2";
+  EXPECT_NE(header(match(), "ETag"), plain);
+}
+
+TEST_F(RoutesMatch, WaitsForAPreparationThenGivesUp) {
+  engine.hold_preparation = true;
+  tgt = shape(post("sphere c", {})).id;
+  const HttpResponse early = match({{"wait", "0.05"}});
+  EXPECT_EQ(problem_code(early), api::Code::shape_not_ready);
+  EXPECT_EQ(header(early, "Retry-After"), "1");
+  std::jthread opener([this] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    engine.hold_preparation = false;
+  });
+  EXPECT_EQ(match({{"wait", "10"}}).status, 200);
+}
+
+TEST_F(RoutesMatch, AFailedShapeCannotBeMatched) {
+  tgt = shape(post("sphere hopeless")).id;
+  const HttpResponse response = match();
+  EXPECT_EQ(problem_code(response), api::Code::shape_failed);
+  EXPECT_NE(response.body.find("three flipped triangles remain"), std::string::npos);
+}
+
+TEST_F(RoutesMatch, ShapesOfAnOlderEngineArePreparedAgain) {
+  EXPECT_EQ(engine.preparations, 2);
+  engine.version_text = "stub-2";
+  const HttpResponse response = match({{"wait", "10"}});
+  EXPECT_EQ(response.status, 200);
+  EXPECT_EQ(api::from_text<api::Match>(response.body).engine, "stub-2");
+  EXPECT_EQ(engine.preparations, 4);
+  EXPECT_EQ(shape(get("/shapes/" + src)).engine, "stub-2");
+}
+
+TEST_F(RoutesMatch, TooManyAtOnceAreTurnedAway) {
+  engine.hold_matches = true;  // one slot, one place to wait
+  std::jthread first([this] { EXPECT_EQ(match().status, 200); });
+  while (matches->counts().inside < 1) std::this_thread::yield();
+  std::jthread second([this] { EXPECT_EQ(match().status, 200); });
+  while (matches->counts().waiting < 1) std::this_thread::yield();
+  const HttpResponse third = match();
+  EXPECT_EQ(problem_code(third), api::Code::overloaded);
+  EXPECT_EQ(header(third, "Retry-After"), "2");
+  const auto health = api::from_text<api::Health>(get("/healthz").body);
+  EXPECT_EQ(health.matches_running, 1);
+  EXPECT_EQ(health.matches_waiting, 1);
+  engine.hold_matches = false;
+}
+
+TEST_F(RoutesMatch, StoppingCancelsWhatRuns) {
+  engine.hold_matches = true;
+  std::jthread first([this] { EXPECT_EQ(problem_code(match()), api::Code::cancelled); });
+  while (engine.matches < 1) std::this_thread::yield();
+  stop_source.request_stop();
+}
+
+}  // namespace
+}  // namespace spherematch

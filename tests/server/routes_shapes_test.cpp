@@ -1,0 +1,193 @@
+#include <cmath>
+#include <cstring>
+
+#include "tests/server/test_service.h"
+
+namespace spherematch {
+namespace {
+
+class RoutesShapes : public testing::TestService {};
+
+TEST_F(RoutesShapes, AnUploadIsCreatedThenKnown) {
+  const HttpResponse first = post("sphere 1", {{"name", "one"}, {"wait", "10"}});
+  EXPECT_EQ(first.status, 201);
+  EXPECT_EQ(first.content_type, "application/json");
+  const api::Shape shape_one = shape(first);
+  EXPECT_EQ(header(first, "Location"), "/shapes/" + shape_one.id);
+  EXPECT_EQ(shape_one.name, "one");
+  EXPECT_EQ(shape_one.state, api::ShapeState::ready);
+  EXPECT_EQ(shape_one.vertices, 5);
+  EXPECT_EQ(shape_one.repair.dropped_vertices, 1);
+
+  const HttpResponse again = post("sphere 1", {{"name", "other"}, {"wait", "10"}});
+  EXPECT_EQ(again.status, 200);
+  EXPECT_EQ(shape(again), shape_one);
+  EXPECT_EQ(engine.reads, 1);
+  EXPECT_EQ(engine.preparations, 1);
+}
+
+TEST_F(RoutesShapes, RepairIsPartOfTheIdentity) {
+  const std::string fill = shape(post("sphere 1", {{"repair", "fill"}})).id;
+  const HttpResponse none = post("sphere 1", {{"repair", "none"}, {"wait", "10"}});
+  EXPECT_EQ(none.status, 201);
+  EXPECT_NE(shape(none).id, fill);
+  EXPECT_EQ(shape(none).repair.mode, "none");
+}
+
+TEST_F(RoutesShapes, WithoutWaitingItIsAcceptedAndShowsItsProgress) {
+  engine.hold_preparation = true;
+  const HttpResponse response = post("sphere 1", {});
+  EXPECT_EQ(response.status, 202);
+  const std::string id = shape(response).id;
+  wait_for_preparations(1);
+  const api::Shape running = shape(get("/shapes/" + id));
+  EXPECT_EQ(running.state, api::ShapeState::processing);
+  EXPECT_EQ(running.stage, "conformal");
+  EXPECT_EQ(running.progress, 0.25);
+  EXPECT_EQ(shape(post("sphere 2", {})).state, api::ShapeState::queued);
+  engine.hold_preparation = false;
+  EXPECT_EQ(post("sphere 1").status, 200);
+  EXPECT_EQ(shape(get("/shapes/" + id)).state, api::ShapeState::ready);
+}
+
+TEST_F(RoutesShapes, UnusableMeshesAreRefusedAndNotStored) {
+  const HttpResponse torus = post("torus");
+  EXPECT_EQ(problem_code(torus), api::Code::wrong_genus);
+  EXPECT_EQ(torus.status, 422);
+  const auto problem = api::from_text<api::Problem>(torus.body);
+  EXPECT_EQ(problem.elements, (std::vector<api::Element>{api::EdgeElement{{1, 2}}, api::FaceElement{7}}));
+  EXPECT_EQ(problem_code(post("?")), api::Code::unsupported_format);
+  EXPECT_EQ(problem_code(post("crowd")), api::Code::too_many_vertices);
+  EXPECT_TRUE(api::from_text<api::ShapePage>(get("/shapes").body).items.empty());
+}
+
+TEST_F(RoutesShapes, AFailedPreparationIsReportedAndRetriedByAnotherUpload) {
+  const HttpResponse first = post("sphere hopeless");
+  EXPECT_EQ(first.status, 202);
+  ASSERT_EQ(shape(first).state, api::ShapeState::failed);
+  EXPECT_EQ(shape(first).error->code, api::Code::parametrization_failed);
+  EXPECT_EQ(post("sphere hopeless").status, 202);
+  EXPECT_EQ(engine.preparations, 2);
+  EXPECT_EQ(engine.reads, 1);
+}
+
+TEST_F(RoutesShapes, NamesAndParametersAreChecked) {
+  const auto refused = [&](const std::multimap<std::string, std::string>& query) { return problem_code(post("sphere 1", query)); };
+  EXPECT_EQ(refused({{"name", std::string(201, 'x')}}), api::Code::invalid_parameter);
+  EXPECT_EQ(refused({{"name", "a\nb"}}), api::Code::invalid_parameter);
+  EXPECT_EQ(refused({{"repair", "safe"}}), api::Code::invalid_parameter);
+  EXPECT_EQ(refused({{"wait", "61"}}), api::Code::invalid_parameter);
+  EXPECT_EQ(refused({{"colour", "red"}}), api::Code::invalid_parameter);
+  EXPECT_EQ(engine.reads, 0);
+}
+
+TEST_F(RoutesShapes, TheFileNameServesAsNameWhereItFits) {
+  const auto name = [&](const std::string& body, const std::string& file_name) {
+    return shape(call({.method = "POST", .path = "/shapes", .query = {}, .body = body, .file_name = file_name, .headers = {}})).name;
+  };
+  EXPECT_EQ(name("sphere 1", "cat.off"), "cat.off");
+  EXPECT_EQ(name("sphere 2", "../../etc/c\nat.off"), "cat.off");
+  EXPECT_EQ(name("sphere 3", "C:\\meshes\\cat.off"), "cat.off");
+  EXPECT_EQ(name("sphere 4", std::string(500, 'x')).size(), 200U);
+}
+
+TEST_F(RoutesShapes, ListsPagesNewestFirst) {
+  for (int i = 0; i < 5; ++i) ready("sphere " + std::to_string(i));
+  std::vector<std::string> seen;
+  std::multimap<std::string, std::string> query{{"limit", "2"}};
+  while (true) {
+    const HttpResponse response = get("/shapes", query);
+    const auto page = api::from_text<api::ShapePage>(response.body);
+    EXPECT_LE(page.items.size(), 2U);
+    for (const api::Shape& item : page.items) seen.push_back(item.id);
+    EXPECT_EQ(header(response, "Link").empty(), !page.next_cursor.has_value());
+    if (!page.next_cursor) break;
+    query = {{"limit", "2"}, {"cursor", *page.next_cursor}};
+  }
+  ASSERT_EQ(seen.size(), 5U);
+  EXPECT_EQ(seen.front(), ready("sphere 4"));
+  EXPECT_EQ(seen.back(), ready("sphere 0"));
+  EXPECT_EQ(problem_code(get("/shapes", {{"cursor", "bogus"}})), api::Code::invalid_parameter);
+  EXPECT_EQ(problem_code(get("/shapes", {{"limit", "0"}})), api::Code::invalid_parameter);
+  EXPECT_EQ(problem_code(get("/shapes", {{"limit", "201"}})), api::Code::invalid_parameter);
+}
+
+TEST_F(RoutesShapes, UnknownShapesAreNotFound) {
+  for (const std::string& id : {std::string(32, '0'), std::string("x"), std::string(5000, 'a'), std::string("'; drop table")}) {
+    EXPECT_EQ(problem_code(get("/shapes/" + id)), api::Code::not_found);
+    EXPECT_EQ(problem_code(get("/shapes/" + id + "/sphere")), api::Code::not_found);
+    EXPECT_EQ(problem_code(remove(id)), api::Code::not_found);
+  }
+}
+
+TEST_F(RoutesShapes, ATagSparesTheBody) {
+  const std::string id = ready("sphere 1");
+  for (const std::string& path : {"/shapes/" + id, "/shapes/" + id + "/sphere"}) {
+    const HttpResponse whole = get(path);
+    const std::string tag = header(whole, "ETag");
+    ASSERT_FALSE(tag.empty());
+    const HttpResponse spared =
+        call({.method = "GET", .path = path, .query = {}, .body = {}, .file_name = {}, .headers = {{"if-none-match", tag}}});
+    EXPECT_EQ(spared.status, 304);
+    EXPECT_EQ(spared.body, "");
+    EXPECT_EQ(header(spared, "ETag"), tag);
+  }
+}
+
+TEST_F(RoutesShapes, TheTagOfAShapeFollowsItsState) {
+  engine.hold_preparation = true;
+  const std::string id = shape(post("sphere 1", {})).id;
+  wait_for_preparations(1);
+  const std::string before = header(get("/shapes/" + id), "ETag");
+  engine.hold_preparation = false;
+  post("sphere 1");
+  EXPECT_NE(header(get("/shapes/" + id), "ETag"), before);
+}
+
+TEST_F(RoutesShapes, TheSphereHasOneRowPerUploadedVertex) {
+  const HttpResponse response = get("/shapes/" + ready("sphere 1") + "/sphere", {{"format", "npy"}});
+  EXPECT_EQ(response.status, 200);
+  EXPECT_EQ(response.content_type, "application/x-npy");
+  ASSERT_GT(response.body.size(), 15 * sizeof(double));
+  EXPECT_NE(response.body.find("(5, 3)"), std::string::npos);
+  double rows[5][3];
+  std::memcpy(rows, response.body.data() + response.body.size() - sizeof rows, sizeof rows);
+  EXPECT_NEAR(rows[1][0], 1 / std::sqrt(3), 1e-15);
+  EXPECT_NEAR(rows[1][1], -1 / std::sqrt(3), 1e-15);
+  for (const double value : rows[4]) EXPECT_TRUE(std::isnan(value));
+  EXPECT_EQ(problem_code(get("/shapes/" + ready("sphere 1") + "/sphere", {{"format", "json"}})), api::Code::invalid_parameter);
+  EXPECT_EQ(problem_code(call({.method = "GET",
+                               .path = "/shapes/" + ready("sphere 1") + "/sphere",
+                               .query = {},
+                               .body = {},
+                               .file_name = {},
+                               .headers = {{"accept", "image/png"}}})),
+            api::Code::not_acceptable);
+}
+
+TEST_F(RoutesShapes, TheSphereOfAnUnfinishedShapeIsAConflict) {
+  engine.hold_preparation = true;
+  const std::string id = shape(post("sphere 1", {})).id;
+  EXPECT_EQ(problem_code(get("/shapes/" + id + "/sphere")), api::Code::shape_not_ready);
+  engine.hold_preparation = false;
+  EXPECT_EQ(get("/shapes/" + id + "/sphere", {{"wait", "10"}}).status, 200);
+}
+
+TEST_F(RoutesShapes, DeletingRemovesAndCancels) {
+  const std::string done = ready("sphere 1");
+  EXPECT_EQ(remove(done).status, 204);
+  EXPECT_EQ(problem_code(get("/shapes/" + done)), api::Code::not_found);
+  EXPECT_EQ(problem_code(remove(done)), api::Code::not_found);
+
+  engine.hold_preparation = true;
+  const std::string running = shape(post("sphere 2", {})).id;
+  wait_for_preparations(2);
+  EXPECT_EQ(remove(running).status, 204);
+  while (engine.cancellations < 1) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  engine.hold_preparation = false;
+  EXPECT_EQ(post("sphere 2").status, 201);
+  EXPECT_EQ(engine.preparations, 3);
+}
+
+}  // namespace
+}  // namespace spherematch

@@ -1,0 +1,44 @@
+#include "tests/server/test_service.h"
+
+namespace spherematch {
+namespace {
+
+class RoutesSystem : public testing::TestService {};
+
+TEST_F(RoutesSystem, HealthCountsTheWork) {
+  EXPECT_EQ(api::from_text<api::Health>(get("/healthz").body), api::Health{});
+  EXPECT_EQ(header(get("/healthz"), "Cache-Control"), "no-store");
+  engine.hold_preparation = true;
+  for (int i = 0; i < 3; ++i) post("sphere " + std::to_string(i), {});
+  wait_for_preparations(1);
+  const auto health = api::from_text<api::Health>(get("/healthz").body);
+  EXPECT_EQ(health.jobs_processing, 1);
+  EXPECT_EQ(health.jobs_queued, 2);
+  stop_source.request_stop();
+  EXPECT_EQ(api::from_text<api::Health>(get("/healthz").body).status, "draining");
+}
+
+TEST_F(RoutesSystem, VersionShowsLimitsAndParameters) {
+  const auto version = api::from_text<api::Version>(get("/version").body);
+  EXPECT_EQ(version.version, "1.2.3");
+  EXPECT_EQ(version.engine, "stub-1");
+  EXPECT_EQ(version.limits.body_bytes, 64 * 1024 * 1024);
+  EXPECT_EQ(version.limits.vertices, 300'000);
+  EXPECT_TRUE(version.parameters["match"].contains("max_candidates"));
+  EXPECT_TRUE(version.parameters["preprocess"].contains("eigenpairs"));
+}
+
+TEST_F(RoutesSystem, TheStartPageNamesTheRoutes) {
+  const HttpResponse page = get("/");
+  EXPECT_EQ(page.content_type, "text/html; charset=utf-8");
+  for (const char* text : {"/shapes", "/match", "/healthz", "/version"}) EXPECT_NE(page.body.find(text), std::string::npos) << text;
+}
+
+TEST_F(RoutesSystem, UnknownParametersAreRefusedEverywhere) {
+  for (const char* path : {"/", "/healthz", "/version", "/shapes", "/match", "/shapes/0", "/shapes/0/sphere"}) {
+    EXPECT_EQ(problem_code(get(path, {{"bogus", "1"}})), api::Code::invalid_parameter) << path;
+  }
+}
+
+}  // namespace
+}  // namespace spherematch

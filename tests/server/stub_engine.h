@@ -1,0 +1,102 @@
+// An engine whose uploads are words and whose preparation waits for the test.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <thread>
+
+#include "server/engine_port.h"
+
+namespace spherematch::testing {
+
+/// "sphere ..." is a tetrahedron; "torus" is refused; a sphere whose upload contains "hopeless" fails in preparation.
+class StubEngine final : public EnginePort {
+ public:
+  std::atomic<bool> hold_preparation = false;  ///< preparations wait while this is set, unless they are cancelled
+  std::atomic<bool> hold_matches = false;
+  std::atomic<int> reads = 0;
+  std::atomic<int> preparations = 0;  ///< started
+  std::atomic<int> cancellations = 0;
+  mutable std::atomic<int> matches = 0;  ///< started
+  std::string version_text = "stub-1";
+
+  [[nodiscard]] std::string version() const override { return version_text; }
+
+  [[nodiscard]] Surface read_surface(std::span<const std::byte> bytes, std::string_view, RepairMode repair,
+                                     const ReadLimits& limits) const override {
+    ++const_cast<StubEngine*>(this)->reads;
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.starts_with("torus")) {
+      throw EngineError(ErrorCode::wrong_genus, "Euler characteristic 0", {.vertices = {}, .faces = {7}, .edges = {{1, 2}}});
+    }
+    if (text.starts_with("crowd")) throw EngineError(ErrorCode::too_many_vertices, "more than " + std::to_string(limits.max_vertices));
+    if (!text.starts_with("sphere")) throw EngineError(ErrorCode::unsupported_format, "no reader recognises the bytes");
+    return tetrahedron(repair, text.find("hopeless") != std::string_view::npos);
+  }
+
+  [[nodiscard]] PreprocessedShape preprocess(Surface surface, const Progress& progress) const override {
+    auto& self = *const_cast<StubEngine*>(this);
+    ++self.preparations;
+    progress.report("conformal", 0.25);
+    try {
+      while (hold_preparation) {
+        progress.check();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    } catch (const EngineError&) {
+      ++self.cancellations;
+      throw;
+    }
+    if (surface.mesh.vertices(0, 0) > 5) throw EngineError(ErrorCode::parametrization_failed, "three flipped triangles remain");
+    PreprocessedShape shape;
+    shape.sphere = surface.mesh.vertices.rowwise().normalized();
+    shape.surface = std::move(surface);
+    shape.eigenvalues = Eigen::VectorXd::LinSpaced(2, 0, 1);
+    shape.eigenvectors = Eigen::MatrixXf::Ones(shape.sphere.rows(), 2);
+    shape.signals = {{"hks_1", Eigen::MatrixXf::Ones(4, 4)}};
+    shape.seconds = {{"conformal", 0.5}, {"total", 0.5}};
+    shape.engine = version_text;
+    return shape;
+  }
+
+  [[nodiscard]] MatchResult match(const PreprocessedShape& source, const PreprocessedShape& target, const MatchParameters& parameters,
+                                  const Progress& progress) const override {
+    ++matches;
+    while (hold_matches) {
+      progress.check();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    const std::int32_t n = source.surface.uploaded_vertices();
+    MatchResult result;
+    result.map.corners.resize(n, 3);
+    result.map.bary.resize(n, 3);
+    for (std::int32_t i = 0; i < n; ++i) {
+      result.map.vertex.push_back((i + 1) % target.surface.uploaded_vertices());
+      result.map.corners.row(i) << result.map.vertex.back(), 0, 1;
+      result.map.bary.row(i) << 0.5F, 0.3F, 0.2F;
+    }
+    result.candidates = {{{1, 0, 0, 0, 1, 0, 0, 0, 1}, 0.9, static_cast<double>(parameters.max_candidates), true}};
+    result.quality = {{"coverage", 1}};
+    result.seconds = {{"rotation", 0.125}, {"total", 0.125}};
+    return result;
+  }
+
+ private:
+  /// Four uploaded vertices on the surface and a fifth that was dropped.
+  static Surface tetrahedron(RepairMode repair, bool hopeless) {
+    Surface surface;
+    surface.mesh.vertices.resize(4, 3);
+    surface.mesh.vertices << (hopeless ? 9.0 : 1.0), 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1;
+    surface.mesh.faces.resize(4, 3);
+    surface.mesh.faces << 0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2;
+    surface.uploaded_corners = surface.mesh.faces;
+    surface.surface_vertex = {0, 1, 2, 3, -1};
+    surface.uploaded_faces = 4;
+    surface.report.dropped_vertices = repair == RepairMode::fill ? 1 : 0;
+    return surface;
+  }
+};
+
+}  // namespace spherematch::testing

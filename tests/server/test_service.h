@@ -1,0 +1,117 @@
+// A store in a directory of its own, a stub engine, and the services and routes above them, without HTTP.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+
+#include "api/json.h"
+#include "server/server_context.h"
+#include "tests/server/stub_engine.h"
+
+namespace spherematch::testing {
+
+class TestService : public ::testing::Test {
+ protected:
+  TestService() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "spherematch-server-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) throw std::system_error(errno, std::generic_category(), "mkdtemp");
+    directory = pattern;
+    start();
+  }
+  ~TestService() override {
+    engine.hold_matches = false;
+    stop();
+    std::error_code ignored;
+    std::filesystem::remove_all(directory, ignored);
+  }
+
+  void start(ShapeServiceSettings settings = {}) {
+    stop_source = std::stop_source();
+    store = std::make_unique<ShapeStore>(directory / "store.db");
+    shapes = std::make_unique<ShapeService>(*store, engine, settings);
+    matches = std::make_unique<Gate>("matches", 1, 1);
+    context = std::make_unique<ServerContext>(ServerContext{options, "1.2.3", engine, *shapes, *matches, stop_source.get_token()});
+    router = std::make_unique<Router>();
+    add_shape_routes(*router, *context);
+    add_match_routes(*router, *context);
+    add_system_routes(*router, *context);
+  }
+  void stop() {
+    stop_source.request_stop();
+    if (shapes) shapes->stop();
+    router.reset();
+    context.reset();
+    matches.reset();
+    shapes.reset();
+    store.reset();
+  }
+
+  struct Call {
+    std::string method = "GET";
+    std::string path;
+    std::multimap<std::string, std::string> query;
+    std::string body;
+    std::string file_name;
+    std::map<std::string, std::string> headers;
+  };
+  HttpResponse call(const Call& call) {
+    HttpRequest request;
+    request.method = call.method;
+    request.path = call.path;
+    request.query = call.query;
+    request.headers = call.headers;
+    request.request_id = "test";
+    return router->handle(request, [&](HttpRequest& r) {
+      r.upload.bytes = call.body;
+      r.upload.file_name = call.file_name;
+    });
+  }
+  HttpResponse get(const std::string& path, const std::multimap<std::string, std::string>& query = {}) {
+    return call({.method = "GET", .path = path, .query = query, .body = {}, .file_name = {}, .headers = {}});
+  }
+  HttpResponse post(const std::string& body, std::multimap<std::string, std::string> query = {{"wait", "10"}}) {
+    return call({.method = "POST", .path = "/shapes", .query = std::move(query), .body = body, .file_name = {}, .headers = {}});
+  }
+  HttpResponse remove(const std::string& id) {
+    return call({.method = "DELETE", .path = "/shapes/" + id, .query = {}, .body = {}, .file_name = {}, .headers = {}});
+  }
+  /// Uploads, expects it to be ready, returns the id.
+  std::string ready(const std::string& body) {
+    const HttpResponse response = post(body);
+    EXPECT_LT(response.status, 202) << response.body;
+    return api::from_text<api::Shape>(response.body).id;
+  }
+  void wait_for_preparations(int count) const {
+    while (engine.preparations < count) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+
+  static api::Shape shape(const HttpResponse& response) { return api::from_text<api::Shape>(response.body); }
+  static api::Code problem_code(const HttpResponse& response) {
+    const auto problem = api::from_text<api::Problem>(response.body);
+    EXPECT_EQ(api::entry_of(problem.code).status, response.status);
+    return problem.code;
+  }
+  static std::string header(const HttpResponse& response, const std::string& name) {
+    for (const auto& [key, value] : response.headers) {
+      if (key == name) return value;
+    }
+    return {};
+  }
+
+  std::filesystem::path directory;
+  ServerOptions options;
+  StubEngine engine;
+  std::stop_source stop_source;
+  std::unique_ptr<ShapeStore> store;
+  std::unique_ptr<ShapeService> shapes;
+  std::unique_ptr<Gate> matches;
+  std::unique_ptr<ServerContext> context;
+  std::unique_ptr<Router> router;
+};
+
+}  // namespace spherematch::testing
