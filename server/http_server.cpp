@@ -5,6 +5,7 @@
 // - routing before its own, which answers 404 to a wrong method and matches paths with recursive regular expressions;
 // - Range is ignored: it would send 206 and a part under a tag of the whole;
 // - a longer listen backlog, a bounded queue of connections, no shared listening port;
+// - a stop that comes before the library runs is not lost;
 // - deadlines on whole requests, a limit on all headers together, and input drained before a refused connection closes
 // (server/socket_stream.h).
 #include "server/http_server.h"
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <mutex>
 #include <random>
 #include <stdexcept>
 #include <thread>
@@ -114,6 +116,9 @@ class HttpServer::Library final : public httplib::Server {
   Gate& uploads_;
   const HttpServerSettings settings_;
   const std::vector<std::string> upload_paths_;
+  std::mutex run_mutex_;
+  bool entered_ = false;  ///< run() has decided to serve
+  std::atomic<bool> finished_ = false;
   std::atomic<bool> stopping_ = false;
   std::thread::id accepting_thread_;
 };
@@ -190,11 +195,23 @@ int HttpServer::Library::bind(const std::string& host, int port) {
 
 void HttpServer::Library::run() {
   accepting_thread_ = std::this_thread::get_id();
+  {
+    const std::lock_guard lock(run_mutex_);
+    if (stopping_) return;
+    entered_ = true;
+  }
   listen_after_bind();
+  finished_ = true;
 }
 
 void HttpServer::Library::stop_all() {
-  stopping_ = true;
+  {
+    const std::lock_guard lock(run_mutex_);
+    stopping_ = true;
+    if (!entered_) return;
+  }
+  // The library's stop() does nothing on a server that is just about to run, which would then never end.
+  while (!is_running() && !finished_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   stop();
 }
 

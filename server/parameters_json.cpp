@@ -2,24 +2,39 @@
 
 namespace spherematch {
 
-api::Json to_json(const PreprocessParameters& p) {
-  return {{"conformal_steps", p.conformal_steps},
-          {"conformal_step_size", p.conformal_step_size},
-          {"authalic_resolution", p.authalic_resolution},
-          {"authalic_steps", p.authalic_steps},
-          {"authalic_step_size", p.authalic_step_size},
-          {"authalic_smoothing", p.authalic_smoothing},
-          {"eigenpairs", p.eigenpairs},
-          {"hks_times", p.hks_times},
-          {"signal_resolution", p.signal_resolution}};
+// The structs are taken apart rather than read member by member: a new field then does not compile until it is listed here.
+// Entity tags are made of these texts, so a field that is left out would let two different results share a tag.
+
+api::Json to_json(const PreprocessParameters& parameters) {
+  const auto& [conformal_steps, conformal_step_size, collapse_passes, collapse_steps, collapse_threshold, authalic_resolution,
+               authalic_steps, authalic_step_size, authalic_smoothing, eigenpairs, hks_times, signal_resolution] = parameters;
+  return {{"conformal_steps", conformal_steps},
+          {"conformal_step_size", conformal_step_size},
+          {"collapse_passes", collapse_passes},
+          {"collapse_steps", collapse_steps},
+          {"collapse_threshold", collapse_threshold},
+          {"authalic_resolution", authalic_resolution},
+          {"authalic_steps", authalic_steps},
+          {"authalic_step_size", authalic_step_size},
+          {"authalic_smoothing", authalic_smoothing},
+          {"eigenpairs", eigenpairs},
+          {"hks_times", hks_times},
+          {"signal_resolution", signal_resolution}};
 }
 
-api::Json to_json(const MatchParameters& p) {
-  return {{"rotation_time", p.rotation_time},
-          {"rotation_bandwidth", p.rotation_bandwidth},
-          {"max_candidates", p.max_candidates},
-          {"candidate_separation", p.candidate_separation},
-          {"candidate_threshold", p.candidate_threshold}};
+api::Json to_json(const MatchParameters& parameters) {
+  const auto& [rotation_time, rotation_bandwidth, max_candidates, candidate_separation, candidate_threshold, flow_times, flow_resolution,
+               flow_iterations, flow_smoothness, paper_selection] = parameters;
+  return {{"rotation_time", rotation_time},
+          {"rotation_bandwidth", rotation_bandwidth},
+          {"max_candidates", max_candidates},
+          {"candidate_separation", candidate_separation},
+          {"candidate_threshold", candidate_threshold},
+          {"flow_times", flow_times},
+          {"flow_resolution", flow_resolution},
+          {"flow_iterations", flow_iterations},
+          {"flow_smoothness", flow_smoothness},
+          {"paper_selection", paper_selection}};
 }
 
 }  // namespace spherematch

@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <mutex>
+#include <set>
 
 #include "server/problem.h"
 #include "server/shape_json.h"
@@ -26,7 +27,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Logs each change of stage with the seconds of the one before, and passes everything on.
+/// Logs each stage when it is first heard of, and passes every report on. Stages may run side by side.
 class StageLog {
  public:
   StageLog(std::string id, Progress progress) : id_(std::move(id)), inner_(std::move(progress)) {}
@@ -36,24 +37,25 @@ class StageLog {
                 [this](std::string_view stage, double fraction) {
                   inner_.report(stage, fraction);
                   const std::lock_guard lock(mutex_);
-                  if (stage != stage_) next(stage);
+                  if (!seen_.emplace(stage).second) return;
+                  spdlog::info("event=stage_started shape={} stage={} seconds={:.3f}", id_, stage, seconds_since(started_));
                 },
             .stop = inner_.stop};
   }
 
  private:
-  void next(std::string_view stage) {
-    if (!stage_.empty()) spdlog::info("event=stage_finished shape={} stage={} seconds={:.3f}", id_, stage_, seconds_since(started_));
-    stage_ = stage;
-    started_ = std::chrono::steady_clock::now();
-  }
-
-  std::string id_;
-  Progress inner_;
+  const std::string id_;
+  const Progress inner_;
+  const std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
-  std::string stage_;
-  std::chrono::steady_clock::time_point started_;
+  std::set<std::string, std::less<>> seen_;
 };
+
+std::string text_of(const StageSeconds& seconds) {
+  std::string text;
+  for (const auto& [stage, value] : seconds) text += fmt::format(" {}={:.3f}", stage, value);
+  return text;
+}
 
 }  // namespace
 
@@ -194,7 +196,7 @@ void ShapeService::compute(const std::string& id, const Progress& progress) {
   progress.check();
   const bool saved = store_.save_prepared(id, *shape);
   if (saved) cache_.put(id, shape);
-  spdlog::info("event=job_finished shape={} saved={} seconds={:.3f}", id, saved, seconds_since(started));
+  spdlog::info("event=job_finished shape={} saved={} seconds={:.3f}{}", id, saved, seconds_since(started), text_of(shape->seconds));
 }
 
 void ShapeService::record_failure(const std::string& id, const Progress& progress, const std::exception_ptr& exception) {

@@ -30,12 +30,15 @@ void PreprocessParameters::validate() const {
   require(eigenpairs >= 10 && eigenpairs <= 500, "eigenpairs", "must be 10 to 500");
   require(!hks_times.empty() && hks_times.size() <= 32, "hks_times", "must hold 1 to 32 times");
   for (const double t : hks_times) require(positive(t), "hks_times", "must be positive");
-  require(signal_resolution >= 16 && signal_resolution <= 512 && signal_resolution % 2 == 0, "signal_resolution", "must be even, 16 to 512");
+  require(signal_resolution >= 16 && signal_resolution <= 512 && signal_resolution % 2 == 0, "signal_resolution",
+          "must be even, 16 to 512");
 }
 
 PreprocessParameters PreprocessParameters::paper() {
   PreprocessParameters parameters;
   parameters.collapse_passes = 0;
+  parameters.authalic_steps = 100;
+  parameters.authalic_step_size = 0.005;
   return parameters;
 }
 

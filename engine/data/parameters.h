@@ -17,12 +17,12 @@ struct PreprocessParameters {
   double conformal_step_size = 0.4;  ///< at unit area with the standard cotangent stiffness
   int collapse_passes = 3;           ///< reweighted passes against the collapse of limbs; 0 for the plain conformal map
   int collapse_steps = 10;           ///< flow steps in each pass
-  double collapse_threshold = 0.1;   ///< linear scale below which a region counts as collapsed
+  double collapse_threshold = 0.3;   ///< linear scale below which a region counts as collapsed
 
   // Authalic evolution (engine/sphere/authalic_evolution.h)
   int authalic_resolution = 256;
-  int authalic_steps = 100;
-  double authalic_step_size = 0.005;
+  int authalic_steps = 50;
+  double authalic_step_size = 0.01;    ///< stable below 2 e tau
   double authalic_smoothing = 0.0025;  ///< tau: coefficient l is damped by exp(-tau l (l + 1))
 
   // Eigenbasis and signals (engine/spectrum)

@@ -25,10 +25,10 @@ struct FlowParameters {
 
 /// A shape on its way: the signals stay with the vertices while the flow moves them.
 struct FlowShape {
-  const Triangles* faces;         ///< (F, 3), not owned
+  const Triangles* faces;          ///< (F, 3), not owned
   const Eigen::MatrixXd* signals;  ///< (V, C), not owned
-  const FlipRepair* repair;       ///< of the faces, not owned
-  Points sphere;                  ///< (V, 3)
+  const FlipRepair* repair;        ///< of the faces, not owned
+  Points sphere;                   ///< (V, 3)
 };
 
 /// Moves both shapes half way towards each other, level by level. Each iteration minimises, over tangent fields W = p x grad u,

@@ -13,7 +13,8 @@ PointLocation::PointLocation(const Points& sphere, const Triangles& faces)
   std::vector<Eigen::Array3d> low(order_.size()), high(order_.size());
   for (std::size_t f = 0; f < order_.size(); ++f) {
     const auto i = static_cast<Eigen::Index>(f);
-    const Eigen::Array3d a = sphere.row(faces(i, 0)).transpose(), b = sphere.row(faces(i, 1)).transpose(), c = sphere.row(faces(i, 2)).transpose();
+    const Eigen::Array3d a = sphere.row(faces(i, 0)).transpose(), b = sphere.row(faces(i, 1)).transpose(),
+                         c = sphere.row(faces(i, 2)).transpose();
     // The spherical triangle bulges out of the flat one by no more than the flat one dips below the sphere.
     const double longest = std::max({(b - a).square().sum(), (c - b).square().sum(), (a - c).square().sum()});
     const double bulge = longest < 2 ? 1 - std::sqrt(1 - longest / 3) + 1e-14 : 2.0;

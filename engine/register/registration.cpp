@@ -119,19 +119,19 @@ MatchResult register_pair(const PreprocessedShape& source_shape, const Preproces
 
   report("rotation", 0);
   const Side source(source_shape, parameters), target(target_shape, parameters);
-  const std::vector<RotationCandidate> candidates = align_rotations({rotation_signal(source, parameters)}, {rotation_signal(target, parameters)},
-                                                                    parameters.rotation_bandwidth - 1, parameters);
+  const std::vector<RotationCandidate> candidates = align_rotations(
+      {rotation_signal(source, parameters)}, {rotation_signal(target, parameters)}, parameters.rotation_bandwidth - 1, parameters);
   result.seconds.emplace_back("rotation", watch.lap());
 
   report("flow", 0.1);
   std::vector<Registered> registered(candidates.size());
-  run_parallel(candidates.size(), threads, [&](std::size_t i) {
-    registered[i] = register_candidate(source, target, candidates[i].rotation, parameters, progress);
-  });
+  run_parallel(candidates.size(), threads,
+               [&](std::size_t i) { registered[i] = register_candidate(source, target, candidates[i].rotation, parameters, progress); });
   result.seconds.emplace_back("flow", watch.lap());
 
   report("correspondence", 0.95);
-  const auto chosen = std::min_element(registered.begin(), registered.end(), [](const auto& a, const auto& b) { return a.score < b.score; });
+  const auto chosen =
+      std::min_element(registered.begin(), registered.end(), [](const auto& a, const auto& b) { return a.score < b.score; });
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     CandidateSummary summary;
     Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(summary.rotation.data()) = candidates[i].rotation;

@@ -65,7 +65,8 @@ CorrelationGrid correlate(const std::vector<Signal>& source, const std::vector<S
           for (int k = 0; k <= l; ++k) row[k] += d[L](m + l, l - k) * g * source[c][L][l - k];
         }
       }
-    fftw_execute_dft_c2r(plan, reinterpret_cast<fftw_complex*>(spectrum.data()), grid.values.data() + static_cast<std::size_t>(j) * size * size);
+    fftw_execute_dft_c2r(plan, reinterpret_cast<fftw_complex*>(spectrum.data()),
+                         grid.values.data() + static_cast<std::size_t>(j) * size * size);
   }
   const std::scoped_lock lock(planner_mutex());
   fftw_destroy_plan(plan);

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "engine/spectrum/signatures.h"
 #include "engine/sphere/harmonics.h"
 #include "engine/sphere/rasterizer.h"
-#include "engine/spectrum/signatures.h"
 
 namespace spherematch {
 
@@ -18,12 +18,13 @@ Eigen::MatrixXd selection_signals(const PreprocessedShape& shape) {
   return signals;
 }
 
-double registration_cost(const Eigen::MatrixXd& source_signals, const Eigen::VectorXd& vertex_weights, const Eigen::MatrixXd& target_signals,
-                         const Triangles& target_faces, const std::vector<Location>& locations) {
+double registration_cost(const Eigen::MatrixXd& source_signals, const Eigen::VectorXd& vertex_weights,
+                         const Eigen::MatrixXd& target_signals, const Triangles& target_faces, const std::vector<Location>& locations) {
   double cost = 0;
   for (Eigen::Index v = 0; v < source_signals.rows(); ++v) {
     const Location& at = locations[static_cast<std::size_t>(v)];
-    const auto image = at.bary[0] * target_signals.row(target_faces(at.face, 0)) + at.bary[1] * target_signals.row(target_faces(at.face, 1)) +
+    const auto image = at.bary[0] * target_signals.row(target_faces(at.face, 0)) +
+                       at.bary[1] * target_signals.row(target_faces(at.face, 1)) +
                        at.bary[2] * target_signals.row(target_faces(at.face, 2));
     cost += vertex_weights[v] * (source_signals.row(v) - image).cwiseAbs().sum();
   }

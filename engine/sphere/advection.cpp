@@ -10,7 +10,9 @@ namespace spherematch {
 TangentField::TangentField(const TangentGrid& grid) : resolution_(static_cast<int>(grid.colatitude.rows())) {
   const int n = resolution_, stride = n + 2;
   samples_.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride));
-  const auto at = [&](int row, int column) -> Eigen::Vector4d& { return samples_[static_cast<std::size_t>((row + 1) * stride + column + 1)]; };
+  const auto at = [&](int row, int column) -> Eigen::Vector4d& {
+    return samples_[static_cast<std::size_t>((row + 1) * stride + column + 1)];
+  };
   for (int j = 0; j < n; ++j) {
     const double colatitude = std::numbers::pi * (j + 0.5) / n, c = std::cos(colatitude), s = std::sin(colatitude);
     for (int i = 0; i < n; ++i) {
@@ -31,7 +33,7 @@ TangentField::TangentField(const TangentGrid& grid) : resolution_(static_cast<in
 
 Eigen::Vector3d TangentField::operator()(const Eigen::Vector3d& p) const {
   const int n = resolution_, stride = n + 2;
-  const double colatitude = std::atan2(std::hypot(p[0], p[1]), p[2]);
+  const double colatitude = std::atan2(std::sqrt(p[0] * p[0] + p[1] * p[1]), p[2]);
   double longitude = std::atan2(p[1], p[0]);
   if (longitude < 0) longitude += 2 * std::numbers::pi;
   const double r = colatitude * n / std::numbers::pi + 0.5, c = longitude * n / (2 * std::numbers::pi) + 0.5;

@@ -33,6 +33,10 @@ void evolve_authalically(Points& sphere, const Triangles& faces, const Eigen::Ve
   const FlipRepair repair(faces, sphere.rows());
   const double floor = 1e-12 / (n * n);  // of the total area: keeps a cell that no triangle reaches finite
 
+  // Coarse limbs cannot follow the flow without flips, since their rings become polygons thinner than their own bend. So each
+  // step is projected back to where nothing flips. Where that fails a later step mostly mends it; if not, the last good one counts.
+  Points last_good = sphere;
+  bool good = true;
   for (int step = 0; step < parameters.authalic_steps; ++step) {
     progress.check();
     report(static_cast<double>(step) / parameters.authalic_steps);
@@ -41,16 +45,12 @@ void evolve_authalically(Points& sphere, const Triangles& faces, const Eigen::Ve
     scale_degrees(degree, smooth, [&](int l) { return -std::exp(-parameters.authalic_smoothing * l * (l + 1)); });
     const TangentField velocity(transform.synthesize_tangent(smooth, none));
 
-    // Coarse limbs cannot follow the flow without flips (their rings become polygons thinner than their own bend), so each step
-    // is projected back; where even that fails the evolution ends early, at the last good state.
-    const Points before = sphere;
     advect(sphere, velocity, parameters.authalic_step_size);
     for (int i = 0; i < kCenteringSteps; ++i) centering_step(sphere, faces, face_mass);
-    if (!repair.repair(sphere)) {
-      sphere = before;
-      return;
-    }
+    good = repair.repair(sphere);
+    if (good) last_good = sphere;
   }
+  if (!good) sphere = last_good;
 }
 
 }  // namespace spherematch

@@ -24,7 +24,7 @@ bool FlipRepair::repair(Points& sphere) const {
     double thinness;
     int passes;
   };
-  for (const Attempt& attempt : {Attempt{0.01, 100}, Attempt{0.003, 300}, Attempt{0.0005, 1000}}) {
+  for (const Attempt& attempt : {Attempt{0.01, 100}, Attempt{0.003, 200}, Attempt{0.0005, 400}}) {
     widen_all(sphere, attempt.thinness, attempt.passes);
     if (flipped_faces(sphere, faces_).empty()) return true;
   }
@@ -48,7 +48,6 @@ void FlipRepair::widen_all(Points& sphere, double thinness, int max_passes) cons
         }
       }
     }
-    std::sort(next.begin(), next.end());
     for (const std::int32_t f : next) queued[static_cast<std::size_t>(f)] = 0;
     active = std::move(next);
   }

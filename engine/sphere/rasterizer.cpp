@@ -20,7 +20,7 @@ struct ClipPoint {
 ClipPoint interpolate(const ClipPoint& p, const ClipPoint& q, double t) {
   const auto mix = [t](double a, double b) { return a + t * (b - a); };
   const double x = mix(p.x, q.x), y = mix(p.y, q.y);
-  return {x, y, mix(p.z, q.z), std::hypot(x, y), mix(p.b1, q.b1), mix(p.b2, q.b2)};
+  return {x, y, mix(p.z, q.z), std::sqrt(x * x + y * y), mix(p.b1, q.b1), mix(p.b2, q.b2)};
 }
 
 /// A convex polygon; each cut adds at most one corner.
@@ -85,7 +85,8 @@ class FaceRasterizer {
       half(triangle, true);
     } else {  // the seam of longitude 0, and with it the axis
       ClipPolygon west, east;
-      split(triangle, [](const ClipPoint& p) { return p.y; }, west, east);
+      split(
+          triangle, [](const ClipPoint& p) { return p.y; }, west, east);
       half(east, false);
       half(west, true);
     }
@@ -95,40 +96,51 @@ class FaceRasterizer {
   /// A polygon on one side of the plane y = 0, where longitude does not wrap.
   void half(const ClipPolygon& polygon, bool west) {
     const int n = lines_.resolution, lower = west ? n / 2 : 0, upper = west ? n - 1 : n / 2 - 1;
-    int first = upper, last = lower;
+    double least = 2, most = -2;  // of a stand-in for the longitude that needs no arc tangent
     for (std::size_t i = 0; i < polygon.size; ++i) {
       const ClipPoint& p = polygon.points[i];
       if (p.radius < 1e-14) continue;  // on the axis every longitude is right
-      const double angle = std::atan2(std::abs(p.y), p.x);
-      const int column = static_cast<int>((west ? 2 * std::numbers::pi - angle : angle) * n / (2 * std::numbers::pi));
-      first = std::min(first, std::clamp(column, lower, upper));
-      last = std::max(last, std::clamp(column, lower, upper));
+      const double cosine = p.x / (std::abs(p.x) + std::abs(p.y));
+      least = std::min(least, cosine);
+      most = std::max(most, cosine);
     }
+    if (least > most) return;
+    const auto column_of = [&](double cosine) {
+      const double angle = std::atan2(1 - std::abs(cosine), cosine);
+      return std::clamp(static_cast<int>((west ? 2 * std::numbers::pi - angle : angle) * n / (2 * std::numbers::pi)), lower, upper);
+    };
+    const int first = column_of(west ? least : most), last = column_of(west ? most : least);
     ClipPolygon rest = polygon, strip, remainder;
     for (int column = first; column < last; ++column) {
       const Eigen::Vector2d& line = lines_.meridian[static_cast<std::size_t>(column + 1)];
-      split(rest, [&line](const ClipPoint& p) { return p.y * line[0] - p.x * line[1]; }, strip, remainder);
+      split(
+          rest, [&line](const ClipPoint& p) { return p.y * line[0] - p.x * line[1]; }, strip, remainder);
       rows(strip, column);
       rest = remainder;
     }
-    rows(rest, std::max(first, last));
+    rows(rest, last);
   }
 
   /// A polygon within one column.
   void rows(const ClipPolygon& polygon, int column) {
     if (polygon.size < 3) return;
     const int n = lines_.resolution;
-    int first = n - 1, last = 0;
+    double least = 2, most = -2;  // of a stand-in for the cosine of the colatitude
     for (std::size_t i = 0; i < polygon.size; ++i) {
       const ClipPoint& p = polygon.points[i];
-      const int row = std::clamp(static_cast<int>(std::atan2(p.radius, p.z) * n / std::numbers::pi), 0, n - 1);
-      first = std::min(first, row);
-      last = std::max(last, row);
+      const double cosine = p.z / (p.radius + std::abs(p.z));
+      least = std::min(least, cosine);
+      most = std::max(most, cosine);
     }
+    const auto row_of = [n](double cosine) {
+      return std::clamp(static_cast<int>(std::atan2(1 - std::abs(cosine), cosine) * n / std::numbers::pi), 0, n - 1);
+    };
+    const int first = row_of(most), last = row_of(least);
     ClipPolygon rest = polygon, strip, remainder;
     for (int row = first; row < last; ++row) {
       const Eigen::Vector2d& line = lines_.parallel[static_cast<std::size_t>(row + 1)];
-      split(rest, [&line](const ClipPoint& p) { return p.radius * line[0] - p.z * line[1]; }, strip, remainder);
+      split(
+          rest, [&line](const ClipPoint& p) { return p.radius * line[0] - p.z * line[1]; }, strip, remainder);
       piece(strip, row, column);
       rest = remainder;
     }
@@ -164,13 +176,12 @@ struct VertexCell {
 std::vector<VertexCell> locate_vertices(const Points& sphere, int n) {
   std::vector<VertexCell> cells(static_cast<std::size_t>(sphere.rows()));
   for (Eigen::Index v = 0; v < sphere.rows(); ++v) {
-    const double x = sphere(v, 0), y = sphere(v, 1), z = sphere(v, 2), radius = std::hypot(x, y);
+    const double x = sphere(v, 0), y = sphere(v, 1), z = sphere(v, 2), radius = std::sqrt(x * x + y * y);
     double longitude = std::atan2(y, x);
     if (longitude < 0) longitude += 2 * std::numbers::pi;
-    cells[static_cast<std::size_t>(v)] = {
-        {x, y, z, radius, 0, 0},
-        std::clamp(static_cast<int>(std::atan2(radius, z) * n / std::numbers::pi), 0, n - 1),
-        std::clamp(static_cast<int>(longitude * n / (2 * std::numbers::pi)), 0, n - 1)};
+    cells[static_cast<std::size_t>(v)] = {{x, y, z, radius, 0, 0},
+                                          std::clamp(static_cast<int>(std::atan2(radius, z) * n / std::numbers::pi), 0, n - 1),
+                                          std::clamp(static_cast<int>(longitude * n / (2 * std::numbers::pi)), 0, n - 1)};
   }
   return cells;
 }
@@ -215,7 +226,8 @@ void fill_empty_cells(const Grid& weight, Grid& values) {
 
 Grid rasterize_mass(const Points& sphere, const Triangles& faces, const Eigen::VectorXd& face_mass, int resolution) {
   Grid mass = Grid::Zero(resolution, resolution);
-  for_each_piece(sphere, faces, resolution, [&](const RasterPiece& piece) { mass.data()[piece.cell] += piece.share * face_mass[piece.face]; });
+  for_each_piece(sphere, faces, resolution,
+                 [&](const RasterPiece& piece) { mass.data()[piece.cell] += piece.share * face_mass[piece.face]; });
   return mass;
 }
 

@@ -14,7 +14,7 @@ namespace spherematch {
 
 /// The part of a face that lies in one cell.
 struct RasterPiece {
-  Eigen::Index cell;         ///< row * N + column
+  Eigen::Index cell;  ///< row * N + column
   Eigen::Index face;
   double share;              ///< fraction of the face's area; the shares of a face sum to 1
   Eigen::Vector3d centroid;  ///< barycentric coordinates of the piece's centroid in the face

@@ -5,7 +5,7 @@ import unittest
 
 import support
 
-LARGE = support.off(support.bumpy(4))
+LARGE = support.off(support.bumpy(5))
 
 
 def wait_for_processing(server, shape_id):

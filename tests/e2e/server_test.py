@@ -91,7 +91,7 @@ class ServerTest(support.TestCase):
         self.assert_problem(self.server.post(support.off(([(0, 0, 0)] * len(vertices), faces))), 422, 'degenerate')
         self.assert_problem(self.server.post(support.off(support.icosphere(5))), 422, 'too-many-vertices')
         self.assert_problem(self.server.post(b'OFF\n3 1 0\n0 0 0\n1 0 0\n'), 400, 'malformed-mesh')
-        self.assert_problem(self.server.post(b'OFF\n99999999 99999999 0\n'), 422, 'too-many-vertices')
+        self.assert_problem(self.server.post(b'OFF\n99999999 99999999 0\n'), 400, 'malformed-mesh')
         self.assert_problem(self.server.post(bytes(range(256))), 415, 'unsupported-format')
         after = self.server.get('/shapes', limit=200).json()['items']
         self.assertEqual([s['id'] for s in after if s['id'] not in {b['id'] for b in before}], [])

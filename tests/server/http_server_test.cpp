@@ -276,6 +276,15 @@ TEST_F(HttpServerTest, StoppingDoesNotWaitForIdleConnections) {
   ::close(slow);
 }
 
+TEST_F(HttpServerTest, AStopAtAnyMomentEndsIt) {
+  for (int i = 0; i < 200; ++i) {
+    start();
+    if (i % 2 != 0) std::this_thread::sleep_for(std::chrono::microseconds(i));
+    stop();
+    server.reset();
+  }
+}
+
 TEST_F(HttpServerTest, APortIsNotShared) {
   start();
   HttpServer second(router, uploads, {});

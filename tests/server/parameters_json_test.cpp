@@ -18,6 +18,11 @@ TEST(ParametersJson, EveryFieldOfAMatchShows) {
   EXPECT_TRUE(changed(&MatchParameters::max_candidates, 1));
   EXPECT_TRUE(changed(&MatchParameters::candidate_separation, 1.0));
   EXPECT_TRUE(changed(&MatchParameters::candidate_threshold, 0.3));
+  EXPECT_TRUE(changed(&MatchParameters::flow_times, std::vector<double>{0.5}));
+  EXPECT_TRUE(changed(&MatchParameters::flow_resolution, 8));
+  EXPECT_TRUE(changed(&MatchParameters::flow_iterations, 1));
+  EXPECT_TRUE(changed(&MatchParameters::flow_smoothness, 0.1));
+  EXPECT_TRUE(changed(&MatchParameters::paper_selection, true));
 }
 
 TEST(ParametersJson, PreprocessingShowsItsValues) {

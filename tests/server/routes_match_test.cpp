@@ -75,8 +75,9 @@ TEST_F(RoutesMatch, MethodSelectsTheParameters) {
   const auto scored = [&](const std::string& method) {
     return api::from_text<api::Match>(match({{"method", method}}).body).candidates.at(0).score;
   };
-  EXPECT_EQ(scored("default"), MatchParameters{}.max_candidates);
-  EXPECT_EQ(scored("paper"), MatchParameters::paper().max_candidates);
+  EXPECT_EQ(scored("default"), 0);
+  EXPECT_EQ(scored("paper"), 1);
+  EXPECT_NE(header(match({{"method", "paper"}}), "ETag"), header(match(), "ETag"));
 }
 
 TEST_F(RoutesMatch, ATagSparesTheComputation) {

@@ -1,0 +1,153 @@
+#include "engine/sphere/authalic_evolution.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "engine/mesh/laplacian.h"
+#include "engine/sphere/conformal_flow.h"
+#include "engine/sphere/orientation.h"
+#include "engine/sphere/rasterizer.h"
+#include "tests/engine/sphere/spheres.h"
+#include "tests/support/meshes.h"
+#include "tests/support/surface_checks.h"
+
+namespace spherematch {
+namespace {
+
+using test::icosphere;
+
+constexpr double pi = std::numbers::pi;
+
+Eigen::VectorXd shares(const Eigen::VectorXd& areas) { return areas / areas.sum(); }
+
+/// The paper's constants, whatever the defaults are.
+PreprocessParameters constants() {
+  PreprocessParameters parameters;
+  parameters.authalic_resolution = 128;
+  parameters.authalic_steps = 100;
+  parameters.authalic_step_size = 0.005;
+  parameters.authalic_smoothing = 0.0025;
+  return parameters;
+}
+
+void evolve(Points& sphere, const Triangles& faces, const Eigen::VectorXd& mass, const PreprocessParameters& parameters) {
+  evolve_authalically(sphere, faces, mass, parameters, {}, [](double) {});
+}
+
+/// Coefficient (l, 0) of the log density on a grid.
+double log_density(const Points& sphere, const Triangles& faces, const Eigen::VectorXd& mass, int l) {
+  const HarmonicTransform transform(64, 31);
+  const Grid density = rasterize_mass(sphere, faces, mass, 64).colwise() / cell_areas(64).array();
+  return transform.analyze(density.log())[harmonic_index(31, l, 0)].real();
+}
+
+/// The amplitude of mode (l, 0) of a sphere with masses 1 + epsilon Y_l0, before and after the evolution.
+std::pair<double, double> amplitudes(const TriMesh& mesh, int l, double epsilon, const PreprocessParameters& parameters) {
+  Eigen::VectorXd mass = test::solid_angles(mesh.vertices, mesh.faces);
+  for (Eigen::Index f = 0; f < mass.size(); ++f) {
+    const Eigen::Vector3d c =
+        (mesh.vertices.row(mesh.faces(f, 0)) + mesh.vertices.row(mesh.faces(f, 1)) + mesh.vertices.row(mesh.faces(f, 2))).transpose();
+    mass[f] *= 1 + epsilon * test::exact_harmonic(l, 0, c.normalized()).real();
+  }
+  mass = shares(mass);
+  Points sphere = mesh.vertices;
+  const double before = log_density(sphere, mesh.faces, mass, l);
+  evolve(sphere, mesh.faces, mass, parameters);
+  EXPECT_TRUE(flipped_faces(sphere, mesh.faces).empty());
+  return {before, log_density(sphere, mesh.faces, mass, l)};
+}
+
+TEST(AuthalicEvolution, DecaysASingleModeAsTheFormulaSays) {
+  const TriMesh mesh = icosphere(4);
+  const PreprocessParameters parameters = constants();
+  for (const int l : {2, 3}) {
+    // The difference of opposite signs is free of the grid's own bias, which has the order of the small amplitudes, and of
+    // everything quadratic.
+    const double epsilon = 0.02;
+    const auto [before_plus, after_plus] = amplitudes(mesh, l, epsilon, parameters);
+    const auto [before_minus, after_minus] = amplitudes(mesh, l, -epsilon, parameters);
+    const double before = (before_plus - before_minus) / 2, after = (after_plus - after_minus) / 2;
+    // Linearised, each step multiplies mode l by 1 - dt l (l + 1) exp(-tau l (l + 1)): 0.0498 for l = 2 after all of them.
+    const double eigenvalue = l * (l + 1), expected = std::pow(1 - 0.005 * eigenvalue * std::exp(-0.0025 * eigenvalue), 100);
+    std::printf("mode %d before %g ratio %g expected %g\n", l, before / epsilon, after / before, expected);
+    EXPECT_NEAR(before, epsilon, 0.01 * epsilon);
+    EXPECT_NEAR(after / before, expected, 0.03 * expected);
+  }
+}
+
+TEST(AuthalicEvolution, LeavesAUniformDensityAlone) {
+  // Not exactly: faces are rasterised as flat pieces, and the grid sees its own poles.
+  double previous = 1;
+  for (const int level : {3, 4}) {
+    const TriMesh mesh = icosphere(level);
+    Points sphere = mesh.vertices;
+    evolve(sphere, mesh.faces, shares(test::solid_angles(mesh.vertices, mesh.faces)), constants());
+    const double moved = (sphere - mesh.vertices).rowwise().norm().maxCoeff();
+    EXPECT_LT(moved, previous);
+    previous = moved;
+  }
+  // Measured: 1.4e-4, 9e-5.
+  EXPECT_LT(previous, 2e-4);
+}
+
+TEST(AuthalicEvolution, MakesAnEllipsoidsAreasEqual) {
+  const TriMesh mesh = test::ellipsoid(4, {1, 1.5, 2.5});
+  const Eigen::VectorXd mass = shares(face_areas(mesh.vertices, mesh.faces));
+  Points sphere = conformal_parametrization(mesh, {}, {});
+  double previous = measure_sphere(sphere, mesh).area_distortion;
+  const double first = previous;
+  PreprocessParameters parameters = constants();
+  parameters.authalic_steps = 25;
+  for (int part = 0; part < 4; ++part) {
+    evolve(sphere, mesh.faces, mass, parameters);
+    const SphereQuality quality = measure_sphere(sphere, mesh);
+    EXPECT_LT(quality.area_distortion, previous);
+    EXPECT_EQ(quality.flipped, 0);
+    EXPECT_LT(quality.solid_angle_defect, 1e-10);
+    EXPECT_LT((sphere.rowwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
+    previous = quality.area_distortion;
+  }
+  // Measured: from 0.52 to 0.024.
+  EXPECT_LT(previous, first / 10);
+}
+
+TEST(AuthalicEvolution, FlipsNothingOnLongLimbs) {
+  const TriMesh mesh = test::creature(4);
+  const Eigen::VectorXd mass = shares(face_areas(mesh.vertices, mesh.faces));
+  Points sphere = conformal_parametrization(mesh, {}, {});
+  const double before = measure_sphere(sphere, mesh).area_distortion;
+  evolve(sphere, mesh.faces, mass, constants());
+  const SphereQuality quality = measure_sphere(sphere, mesh);
+  EXPECT_EQ(quality.flipped, 0);
+  // Measured: from 1.58 to 0.047.
+  EXPECT_LT(quality.area_distortion, before / 15);
+}
+
+TEST(AuthalicEvolution, ReportsRisingFractionsAndStopsWhenAsked) {
+  const TriMesh mesh = icosphere(2);
+  const Eigen::VectorXd mass = shares(face_areas(mesh.vertices, mesh.faces));
+  PreprocessParameters parameters = constants();
+  parameters.authalic_resolution = 32;
+  Points sphere = mesh.vertices;
+  std::vector<double> fractions;
+  evolve_authalically(sphere, mesh.faces, mass, parameters, {}, [&](double fraction) { fractions.push_back(fraction); });
+  ASSERT_GT(fractions.size(), 5U);
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_GE(fractions.front(), 0);
+  EXPECT_LE(fractions.back(), 1);
+
+  std::stop_source source;
+  int calls = 0;
+  const auto stop_at_fifth = [&](double) {
+    if (++calls == 5) source.request_stop();
+  };
+  const Progress progress{{}, source.get_token()};
+  test::expect_refusal(ErrorCode::cancelled, [&] { evolve_authalically(sphere, mesh.faces, mass, parameters, progress, stop_at_fifth); });
+  EXPECT_LE(calls, 6);
+}
+
+}  // namespace
+}  // namespace spherematch
