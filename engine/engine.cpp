@@ -72,12 +72,12 @@ SphereBranch parametrize(const TriMesh& mesh, const PreprocessParameters& parame
   face_mass /= face_mass.sum();
   center(result.sphere, mesh.faces, face_mass);
   rotate_to_principal_axes(result.sphere, mesh.faces, face_mass);
-  if (!FlipRepair(mesh.faces, mesh.vertices.rows()).repair(result.sphere))
+  if (!FlipRepair(mesh).repair(result.sphere))
     throw EngineError(ErrorCode::parametrization_failed, "centering the spherical parametrisation flipped triangles");
   result.seconds.emplace_back("centering", seconds_since(start));
 
   start = Clock::now();
-  evolve_authalically(result.sphere, mesh.faces, face_mass, parameters, progress,
+  evolve_authalically(result.sphere, mesh, parameters, progress,
                       [&joint](double fraction) { joint.update(0, "authalic", 0.3 + 0.7 * fraction); });
   result.seconds.emplace_back("authalic", seconds_since(start));
   return result;

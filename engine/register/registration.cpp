@@ -43,7 +43,7 @@ struct Side {
       : shape(s),
         flow_signals(heat_kernel_signatures(s.eigenvalues, s.eigenvectors, parameters.flow_times)),
         weights(vertex_areas(s.surface.mesh.vertices, s.surface.mesh.faces)),
-        repair(s.surface.mesh.faces, s.sphere.rows()) {
+        repair(s.surface.mesh) {
     weights /= weights.sum();
     selection = parameters.paper_selection ? heat_kernel_signatures(s.eigenvalues, s.eigenvectors, {0.01}) : selection_signals(s);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/mesh/laplacian.h"
 #include "engine/sphere/advection.h"
 #include "engine/sphere/flip_repair.h"
 #include "engine/sphere/harmonics.h"
@@ -23,14 +24,17 @@ int smoothed_degree(double smoothing, int resolution) {
 
 }  // namespace
 
-void evolve_authalically(Points& sphere, const Triangles& faces, const Eigen::VectorXd& face_mass, const PreprocessParameters& parameters,
-                         const Progress& progress, const std::function<void(double)>& report) {
+void evolve_authalically(Points& sphere, const TriMesh& surface, const PreprocessParameters& parameters, const Progress& progress,
+                         const std::function<void(double)>& report) {
+  const Triangles& faces = surface.faces;
+  Eigen::VectorXd face_mass = face_areas(surface.vertices, faces);
+  face_mass /= face_mass.sum();
   const int n = parameters.authalic_resolution;
   const int degree = smoothed_degree(parameters.authalic_smoothing, n);
   const HarmonicTransform transform(n, degree);
   const Eigen::ArrayXd areas = cell_areas(n).array();
   const Harmonics none = Harmonics::Zero(harmonic_count(degree));
-  const FlipRepair repair(faces, sphere.rows());
+  const FlipRepair repair(surface);
   const double floor = 1e-12 / (n * n);  // of the total area: keeps a cell that no triangle reaches finite
 
   // Coarse limbs cannot follow the flow without flips, since their rings become polygons thinner than their own bend. So each

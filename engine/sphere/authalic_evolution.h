@@ -12,9 +12,9 @@ namespace spherematch {
 
 /// Advects the vertices along -grad log(area scale factor), the logarithm smoothed for time authalic_smoothing, and recentres
 /// after each step. No triangle flips: vertices that would turn one over are held back.
-/// `face_mass` (F) are the surface's face areas, of sum 1. `report` is called with the fraction done.
+/// `report` is called with the fraction done.
 /// @throws EngineError(cancelled)
-void evolve_authalically(Points& sphere, const Triangles& faces, const Eigen::VectorXd& face_mass, const PreprocessParameters& parameters,
-                         const Progress& progress, const std::function<void(double)>& report);
+void evolve_authalically(Points& sphere, const TriMesh& surface, const PreprocessParameters& parameters, const Progress& progress,
+                         const std::function<void(double)>& report);
 
 }  // namespace spherematch

@@ -128,7 +128,7 @@ Points conformal_parametrization(const TriMesh& surface, const PreprocessParamet
   }
 
   x.rowwise().normalize();
-  if (!FlipRepair(faces, x.rows()).repair(x))
+  if (!FlipRepair(surface).repair(x))
     throw EngineError(ErrorCode::parametrization_failed, "no conformal parametrisation without flipped triangles was found");
   return x;
 }

@@ -5,18 +5,27 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/mesh/laplacian.h"
 #include "engine/sphere/orientation.h"
 
 namespace spherematch {
 
-FlipRepair::FlipRepair(const Triangles& faces, Eigen::Index vertex_count)
-    : faces_(faces), start_(static_cast<std::size_t>(vertex_count) + 1, 0), face_(static_cast<std::size_t>(faces.size())) {
-  for (Eigen::Index i = 0; i < faces.size(); ++i) ++start_[static_cast<std::size_t>(faces.data()[i]) + 1];
+FlipRepair::FlipRepair(const TriMesh& surface)
+    : faces_(surface.face_count(), 3),
+      start_(static_cast<std::size_t>(surface.vertex_count()) + 1, 0),
+      face_(static_cast<std::size_t>(surface.faces.size())) {
+  const Eigen::VectorXd areas = face_areas(surface.vertices, surface.faces);
+  std::vector<std::int32_t> order(static_cast<std::size_t>(surface.face_count()));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&areas](std::int32_t f, std::int32_t g) { return areas[f] < areas[g]; });
+  for (std::size_t f = 0; f < order.size(); ++f) faces_.row(static_cast<Eigen::Index>(f)) = surface.faces.row(order[f]);
+
+  for (Eigen::Index i = 0; i < faces_.size(); ++i) ++start_[static_cast<std::size_t>(faces_.data()[i]) + 1];
   for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
   std::vector<std::int32_t> next(start_.begin(), start_.end() - 1);
-  for (Eigen::Index f = 0; f < faces.rows(); ++f)
+  for (Eigen::Index f = 0; f < faces_.rows(); ++f)
     for (int k = 0; k < 3; ++k)
-      face_[static_cast<std::size_t>(next[static_cast<std::size_t>(faces(f, k))]++)] = static_cast<std::int32_t>(f);
+      face_[static_cast<std::size_t>(next[static_cast<std::size_t>(faces_(f, k))]++)] = static_cast<std::int32_t>(f);
 }
 
 bool FlipRepair::repair(Points& sphere) const {

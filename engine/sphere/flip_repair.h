@@ -12,7 +12,8 @@ namespace spherematch {
 /// Immutable; const members may be called from several threads.
 class FlipRepair {
  public:
-  FlipRepair(const Triangles& faces, Eigen::Index vertex_count);
+  /// Faces are treated in the order of their areas on the surface, so that the result does not depend on how they are numbered.
+  explicit FlipRepair(const TriMesh& surface);
 
   /// Widens thin and flipped faces, first to a comfortable height and, where that does not end, to a smaller one.
   /// Returns whether no face is flipped any more.
@@ -24,7 +25,7 @@ class FlipRepair {
   void widen_all(Points& sphere, double thinness, int max_passes) const;
   [[nodiscard]] bool widen(Points& sphere, std::int32_t face, double thinness) const;
 
-  Triangles faces_;
+  Triangles faces_;                         ///< by growing area on the surface
   std::vector<std::int32_t> start_, face_;  ///< the faces around each vertex, compressed rows
 };
 

@@ -42,16 +42,14 @@ TEST(FlipRepair, MendsAShakenSphere) {
   const FlipRepair repair(mesh.faces, mesh.vertex_count());
   for (const std::uint64_t seed : {1, 2, 3}) {
     Points sphere = shaken(mesh.vertices, 0.07, seed, [](const Eigen::RowVector3d&) { return true; });
-    const std::size_t flipped = flipped_faces(sphere, mesh.faces).size();
-    ASSERT_GT(flipped, 100U);
+    ASSERT_GT(flipped_faces(sphere, mesh.faces).size(), 150U);
     const Points before = sphere;
     EXPECT_TRUE(repair.repair(sphere));
     EXPECT_TRUE(flipped_faces(sphere, mesh.faces).empty());
     EXPECT_NEAR(total_solid_angle(sphere, mesh.faces), 4 * std::numbers::pi, 1e-11);
     EXPECT_LT((sphere.rowwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
-    std::printf("flipped %zu moved %g\n", flipped, (sphere - before).rowwise().norm().maxCoeff());
-    // It mends, it does not start anew: no vertex goes further than two edges.
-    EXPECT_LT((sphere - before).rowwise().norm().maxCoeff(), 0.14);
+    // It mends, it does not start anew: no vertex goes further than an edge. Measured: 0.034.
+    EXPECT_LT((sphere - before).rowwise().norm().maxCoeff(), 0.07);
   }
 }
 
