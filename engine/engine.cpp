@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <mutex>
 #include <string>
 
@@ -54,6 +53,8 @@ TriMesh unit_area(const TriMesh& mesh) {
   return result;
 }
 
+constexpr double kConformalShare = 0.4;  ///< of the time of the sphere's branch
+
 struct SphereBranch {
   Points sphere;
   StageSeconds seconds;
@@ -62,12 +63,12 @@ struct SphereBranch {
 SphereBranch parametrize(const TriMesh& mesh, const PreprocessParameters& parameters, const Progress& progress, JointProgress& joint) {
   SphereBranch result;
   auto start = Clock::now();
-  joint.update(0, "conformal", 0);
-  result.sphere = conformal_parametrization(mesh, parameters, progress);
+  result.sphere = conformal_parametrization(mesh, parameters, progress,
+                                            [&joint](double fraction) { joint.update(0, "conformal", kConformalShare * fraction); });
   result.seconds.emplace_back("conformal", seconds_since(start));
 
   start = Clock::now();
-  joint.update(0, "centering", 0.3);
+  joint.update(0, "centering", kConformalShare);
   Eigen::VectorXd face_mass = face_areas(mesh.vertices, mesh.faces);
   face_mass /= face_mass.sum();
   center(result.sphere, mesh.faces, face_mass);
@@ -78,7 +79,7 @@ SphereBranch parametrize(const TriMesh& mesh, const PreprocessParameters& parame
 
   start = Clock::now();
   evolve_authalically(result.sphere, mesh, parameters, progress,
-                      [&joint](double fraction) { joint.update(0, "authalic", 0.3 + 0.7 * fraction); });
+                      [&joint](double fraction) { joint.update(0, "authalic", kConformalShare + (1 - kConformalShare) * fraction); });
   result.seconds.emplace_back("authalic", seconds_since(start));
   return result;
 }
@@ -120,11 +121,8 @@ PreprocessedShape preprocess(Surface surface, const PreprocessParameters& parame
   shape.eigenvectors = basis.vectors.cast<float>();
   const Eigen::MatrixXd signatures = heat_kernel_signatures(shape.eigenvalues, shape.eigenvectors, parameters.hks_times);
   const std::vector<Grid> grids = rasterize_signals(shape.sphere, mesh.faces, signatures, parameters.signal_resolution);
-  for (std::size_t i = 0; i < grids.size(); ++i) {
-    char name[32];
-    std::snprintf(name, sizeof name, "hks_%g", parameters.hks_times[i]);
-    shape.signals.push_back({name, grids[i].matrix().cast<float>()});
-  }
+  for (std::size_t i = 0; i < grids.size(); ++i)
+    shape.signals.push_back({hks_name(parameters.hks_times[i]), grids[i].matrix().cast<float>()});
   shape.seconds = std::move(branch.seconds);
   shape.seconds.emplace_back("eigenbasis", eigenbasis_seconds);
   shape.seconds.emplace_back("signals", seconds_since(began));

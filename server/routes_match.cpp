@@ -27,10 +27,10 @@ constexpr std::array<std::string_view, 2> cache_modes{"yes", "no"};
 struct MatchQuery {
   std::string src;
   std::string tgt;
-  const Representation* representation;
+  const Representation* representation = nullptr;
   MatchFields fields;
   MatchParameters parameters;
-  std::chrono::milliseconds wait;
+  std::chrono::milliseconds wait{};
 };
 
 MatchQuery parse_query(const HttpRequest& request) {

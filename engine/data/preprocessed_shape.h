@@ -26,6 +26,9 @@ struct SignalGrid {
   Eigen::MatrixXf values;  ///< (N, N): row = colatitude, column = longitude
 };
 
+/// Name of the heat kernel signature at a time, "hks_0.0625".
+[[nodiscard]] std::string hks_name(double time);
+
 struct PreprocessedShape {
   Surface surface;
   Points sphere;  ///< (V, 3) unit vectors, one per vertex of surface.mesh; no flipped triangle

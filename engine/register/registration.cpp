@@ -50,12 +50,24 @@ struct Side {
   [[nodiscard]] const Triangles& faces() const { return shape.surface.mesh.faces; }
 };
 
-/// The rotation signal in harmonics.
-Harmonics rotation_signal(const Side& side, const MatchParameters& parameters) {
-  const int resolution = 2 * parameters.rotation_bandwidth;
-  const Eigen::MatrixXd signal = heat_kernel_signatures(side.shape.eigenvalues, side.shape.eigenvectors, {parameters.rotation_time});
-  const HarmonicTransform transform(resolution, parameters.rotation_bandwidth - 1);
-  return transform.analyze(rasterize_signals(side.shape.sphere, side.faces(), signal, resolution).front());
+/// The stored signal that rotations are aligned by.
+const Eigen::MatrixXf& rotation_grid(const PreprocessedShape& shape, const MatchParameters& parameters) {
+  const std::string name = hks_name(parameters.rotation_time);
+  const auto signal = std::find_if(shape.signals.begin(), shape.signals.end(), [&name](const SignalGrid& s) { return s.name == name; });
+  if (signal == shape.signals.end())
+    throw EngineError(ErrorCode::invalid_parameter, "rotation_time must be one of the times at which the shape's signals are stored");
+  return signal->values;
+}
+
+std::vector<RotationCandidate> find_candidates(const PreprocessedShape& source, const PreprocessedShape& target,
+                                               const MatchParameters& parameters) {
+  const Eigen::MatrixXf &s = rotation_grid(source, parameters), &t = rotation_grid(target, parameters);
+  const auto finest = static_cast<int>(std::min(s.rows(), t.rows()));
+  const int degree = std::min(parameters.rotation_bandwidth, finest / 2) - 1;
+  const auto harmonics = [degree](const Eigen::MatrixXf& grid) {
+    return HarmonicTransform(static_cast<int>(grid.rows()), degree).analyze(grid.cast<double>().array());
+  };
+  return align_rotations({harmonics(s)}, {harmonics(t)}, degree, parameters);
 }
 
 FlowParameters flow_parameters(const MatchParameters& parameters) {
@@ -118,12 +130,11 @@ MatchResult register_pair(const PreprocessedShape& source_shape, const Preproces
   MatchResult result;
 
   report("rotation", 0);
-  const Side source(source_shape, parameters), target(target_shape, parameters);
-  const std::vector<RotationCandidate> candidates = align_rotations(
-      {rotation_signal(source, parameters)}, {rotation_signal(target, parameters)}, parameters.rotation_bandwidth - 1, parameters);
+  const std::vector<RotationCandidate> candidates = find_candidates(source_shape, target_shape, parameters);
   result.seconds.emplace_back("rotation", watch.lap());
 
   report("flow", 0.1);
+  const Side source(source_shape, parameters), target(target_shape, parameters);
   std::vector<Registered> registered(candidates.size());
   run_parallel(candidates.size(), threads,
                [&](std::size_t i) { registered[i] = register_candidate(source, target, candidates[i].rotation, parameters, progress); });

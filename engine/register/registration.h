@@ -8,7 +8,7 @@
 namespace spherematch {
 
 /// The stages of engine.h's match() in order, candidates in parallel on up to `threads` threads.
-/// @throws EngineError(cancelled)
+/// @throws EngineError(cancelled, invalid_parameter)
 [[nodiscard]] MatchResult register_pair(const PreprocessedShape& source, const PreprocessedShape& target, const MatchParameters& parameters,
                                         const Progress& progress, int threads);
 

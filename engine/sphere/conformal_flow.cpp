@@ -93,7 +93,8 @@ class ConformalFlow {
 
 }  // namespace
 
-Points conformal_parametrization(const TriMesh& surface, const PreprocessParameters& parameters, const Progress& progress) {
+Points conformal_parametrization(const TriMesh& surface, const PreprocessParameters& parameters, const Progress& progress,
+                                 const std::function<void(double)>& report) {
   const Triangles& faces = surface.faces;
   Points x = surface.vertices;
   normalize(x, faces);
@@ -103,10 +104,13 @@ Points conformal_parametrization(const TriMesh& surface, const PreprocessParamet
   make_delaunay(intrinsic);
   ConformalFlow flow(x, faces, intrinsic);
   Eigen::VectorXd conductivity = Eigen::VectorXd::Ones(x.rows());
+  int done = 0;
+  const int all = parameters.conformal_steps + parameters.collapse_passes * parameters.collapse_steps;
   const auto run = [&](int steps) {
     flow.set_stiffness(conductivity, parameters.conformal_step_size);
     for (int step = 0; step < steps; ++step) {
       progress.check();
+      if (report) report(static_cast<double>(done++) / all);
       flow.step();
     }
   };

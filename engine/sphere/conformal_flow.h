@@ -1,6 +1,8 @@
 // Conformal parametrisation over the sphere by conformalised mean curvature flow (Kazhdan, Solomon, Ben-Chen 2012; paper 3.1).
 #pragma once
 
+#include <functional>
+
 #include "engine/data/parameters.h"
 #include "engine/data/progress.h"
 #include "engine/data/tri_mesh.h"
@@ -9,8 +11,11 @@ namespace spherematch {
 
 /// Evolves the surface to a sphere: (M_t + d S_0) x_{t+1} = M_t x_t with the stiffness of the input frozen, scaled to unit area
 /// and centred after each step, then projected radially and freed of flipped triangles.
+/// Where the map has collapsed a limb below collapse_threshold, collapse_passes extra passes open it up. `report` is called with the
+/// fraction done.
 /// @return (V, 3) unit vectors without a flipped triangle
 /// @throws EngineError(cancelled, parametrization_failed)
-[[nodiscard]] Points conformal_parametrization(const TriMesh& surface, const PreprocessParameters& parameters, const Progress& progress);
+[[nodiscard]] Points conformal_parametrization(const TriMesh& surface, const PreprocessParameters& parameters, const Progress& progress,
+                                               const std::function<void(double)>& report = {});
 
 }  // namespace spherematch
