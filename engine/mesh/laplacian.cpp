@@ -52,7 +52,7 @@ ElementAssembler::ElementAssembler(const SparseMatrix& pattern, const Triangles&
     auto& slots = slots_[static_cast<std::size_t>(f)];
     for (int k = 0; k < 3; ++k) {
       slots[static_cast<std::size_t>(k)] = slot(faces(f, k), faces(f, k));
-      slots[static_cast<std::size_t>(k + 3)] = slot(faces(f, kEdges[k][0]), faces(f, kEdges[k][1]));
+      slots[static_cast<std::size_t>(k) + 3] = slot(faces(f, kEdges[k][0]), faces(f, kEdges[k][1]));
     }
   }
 }

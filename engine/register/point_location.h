@@ -9,7 +9,7 @@
 namespace spherematch {
 
 struct Location {
-  std::int32_t face;
+  std::int32_t face = -1;
   Eigen::Vector3d bary;  ///< weights of the face's corners, non-negative, sum 1: the point's ray meets the flat triangle there
 };
 

@@ -34,7 +34,7 @@ double registration_cost(const Eigen::MatrixXd& source_signals, const Eigen::Vec
 double paper_cost(const Points& source_sphere, const Triangles& source_faces, const Eigen::VectorXd& source_signal,
                   const Points& target_sphere, const Triangles& target_faces, const Eigen::VectorXd& target_signal, int resolution) {
   const int degree = resolution / 2 - 1;
-  const double time = std::log(100.0) / (resolution / 2 * (resolution / 2 + 1.0));
+  const double bandwidth = 0.5 * resolution, time = std::log(100.0) / (bandwidth * (bandwidth + 1));
   const HarmonicTransform transform(resolution, degree);
   const auto smoothed = [&](const Points& sphere, const Triangles& faces, const Eigen::VectorXd& signal) {
     Harmonics a = transform.analyze(rasterize_signals(sphere, faces, signal, resolution).front());

@@ -10,7 +10,7 @@ namespace spherematch {
 TangentField::TangentField(const TangentGrid& grid) : resolution_(static_cast<int>(grid.colatitude.rows())) {
   const int n = resolution_, stride = n + 2;
   samples_.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride));
-  const auto at = [&](int row, int column) -> Eigen::Vector4d& {
+  const auto at = [&](std::ptrdiff_t row, std::ptrdiff_t column) -> Eigen::Vector4d& {
     return samples_[static_cast<std::size_t>((row + 1) * stride + column + 1)];
   };
   for (int j = 0; j < n; ++j) {
@@ -39,7 +39,7 @@ Eigen::Vector3d TangentField::operator()(const Eigen::Vector3d& p) const {
   const double r = colatitude * n / std::numbers::pi + 0.5, c = longitude * n / (2 * std::numbers::pi) + 0.5;
   const int row = std::clamp(static_cast<int>(r), 0, n), column = std::clamp(static_cast<int>(c), 0, n);
   const double fr = r - row, fc = c - column;
-  const Eigen::Vector4d* s = samples_.data() + row * stride + column;
+  const Eigen::Vector4d* s = samples_.data() + static_cast<std::ptrdiff_t>(row) * stride + column;
   const Eigen::Vector4d v = (1 - fr) * ((1 - fc) * s[0] + fc * s[1]) + fr * ((1 - fc) * s[stride] + fc * s[stride + 1]);
   const Eigen::Vector3d w = v.head<3>();
   return w - w.dot(p) * p;

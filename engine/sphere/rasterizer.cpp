@@ -23,8 +23,8 @@ ClipPoint interpolate(const ClipPoint& p, const ClipPoint& q, double t) {
   return {x, y, mix(p.z, q.z), std::sqrt(x * x + y * y), mix(p.b1, q.b1), mix(p.b2, q.b2)};
 }
 
-/// A convex polygon; each cut adds at most one corner.
-struct ClipPolygon {
+/// A convex polygon; each cut adds at most one corner. Only the first `size` points are ever read.
+struct ClipPolygon {  // NOLINT(cppcoreguidelines-pro-type-member-init)
   std::array<ClipPoint, 16> points;
   std::size_t size = 0;
 
@@ -112,7 +112,7 @@ class FaceRasterizer {
     const int first = column_of(west ? least : most), last = column_of(west ? most : least);
     ClipPolygon rest = polygon, strip, remainder;
     for (int column = first; column < last; ++column) {
-      const Eigen::Vector2d& line = lines_.meridian[static_cast<std::size_t>(column + 1)];
+      const Eigen::Vector2d& line = lines_.meridian[static_cast<std::size_t>(column) + 1];
       split(
           rest, [&line](const ClipPoint& p) { return p.y * line[0] - p.x * line[1]; }, strip, remainder);
       rows(strip, column);
@@ -138,7 +138,7 @@ class FaceRasterizer {
     const int first = row_of(most), last = row_of(least);
     ClipPolygon rest = polygon, strip, remainder;
     for (int row = first; row < last; ++row) {
-      const Eigen::Vector2d& line = lines_.parallel[static_cast<std::size_t>(row + 1)];
+      const Eigen::Vector2d& line = lines_.parallel[static_cast<std::size_t>(row) + 1];
       split(
           rest, [&line](const ClipPoint& p) { return p.radius * line[0] - p.z * line[1]; }, strip, remainder);
       piece(strip, row, column);
