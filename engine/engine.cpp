@@ -1,5 +1,6 @@
 #include "engine/engine.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <mutex>
@@ -34,7 +35,7 @@ class JointProgress {
 
   void update(std::size_t branch, const char* stage, double fraction) {
     const std::scoped_lock lock(mutex_);
-    done_[branch] = fraction;
+    done_[branch] = std::max(done_[branch], fraction);
     if (progress_.report) progress_.report(stage, share_[0] * done_[0] + share_[1] * done_[1]);
   }
 
@@ -71,10 +72,14 @@ SphereBranch parametrize(const TriMesh& mesh, const PreprocessParameters& parame
   joint.update(0, "centering", kConformalShare);
   Eigen::VectorXd face_mass = face_areas(mesh.vertices, mesh.faces);
   face_mass /= face_mass.sum();
-  center(result.sphere, mesh.faces, face_mass);
+  const FlipRepair repair(mesh);
+  Points centered = result.sphere;
+  center(centered, mesh.faces, face_mass);
+  // On a handful of triangles centering can turn one over; the parametrisation is then left where it is.
+  if (repair.repair(centered)) result.sphere = std::move(centered);
   rotate_to_principal_axes(result.sphere, mesh.faces, face_mass);
-  if (!FlipRepair(mesh).repair(result.sphere))
-    throw EngineError(ErrorCode::parametrization_failed, "centering the spherical parametrisation flipped triangles");
+  if (!repair.repair(result.sphere))
+    throw EngineError(ErrorCode::parametrization_failed, "rounding flipped triangles of the spherical parametrisation");
   result.seconds.emplace_back("centering", seconds_since(start));
 
   start = Clock::now();

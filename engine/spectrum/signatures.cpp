@@ -14,7 +14,8 @@ Eigen::MatrixXd heat_kernel_signatures(const Eigen::VectorXd& values, const Eige
 Eigen::MatrixXd wave_kernel_signatures(const Eigen::VectorXd& values, const Eigen::MatrixXf& vectors, int count) {
   const Eigen::Index k = values.size();
   const Eigen::ArrayXd logs = values.array().max(1e-6).log();
-  const double low = logs[1], high = logs[k - 1], width = 7 * (high - low) / count;
+  const double low = logs[std::min<Eigen::Index>(1, k - 1)], high = logs[k - 1];
+  const double width = std::max(7 * (high - low) / count, 0.1);  // a spectrum of one or two values has no range
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(k, count);
   for (int e = 0; e < count; ++e) {
     const double energy = low + (high - low) * e / std::max(1, count - 1);

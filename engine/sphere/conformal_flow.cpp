@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <cmath>
+#include <numbers>
 
 #include "engine/mesh/laplacian.h"
 #include "engine/sphere/flip_repair.h"
+#include "engine/sphere/orientation.h"
 
 namespace spherematch {
 namespace {
@@ -91,17 +93,13 @@ class ConformalFlow {
   Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> solver_;
 };
 
-}  // namespace
+constexpr double kLeastConductivity = 1e-30;  ///< keeps the system regular
 
-Points conformal_parametrization(const TriMesh& surface, const PreprocessParameters& parameters, const Progress& progress,
-                                 const std::function<void(double)>& report) {
+/// One run of the method, without a check of the result.
+Points evolve(const TriMesh& surface, const IntrinsicMesh& intrinsic, const PreprocessParameters& parameters, const Progress& progress,
+              const std::function<void(double)>& report) {
   const Triangles& faces = surface.faces;
   Points x = surface.vertices;
-  normalize(x, faces);
-
-  // The stiffness is that of the intrinsic Delaunay triangulation: without negative weights limbs collapse without folding.
-  IntrinsicMesh intrinsic = intrinsic_mesh({x, faces});
-  make_delaunay(intrinsic);
   ConformalFlow flow(x, faces, intrinsic);
   Eigen::VectorXd conductivity = Eigen::VectorXd::Ones(x.rows());
   int done = 0;
@@ -127,14 +125,36 @@ Points conformal_parametrization(const TriMesh& surface, const PreprocessParamet
         log_sum[faces(f, k)] += std::log(std::min(1.0, factors[f] / parameters.collapse_threshold));
         count[faces(f, k)] += 1;
       }
-    conductivity.array() *= (log_sum.array() / count.array()).exp();
+    conductivity = (conductivity.array() * (log_sum.array() / count.array()).exp()).max(kLeastConductivity);
     run(parameters.collapse_steps);
   }
+  return x.rowwise().normalized();
+}
 
-  x.rowwise().normalize();
-  if (!FlipRepair(surface).repair(x))
-    throw EngineError(ErrorCode::parametrization_failed, "no conformal parametrisation without flipped triangles was found");
-  return x;
+}  // namespace
+
+Points conformal_parametrization(const TriMesh& surface, const PreprocessParameters& parameters, const Progress& progress,
+                                 const std::function<void(double)>& report) {
+  TriMesh start = surface;
+  normalize(start.vertices, start.faces);
+  // The stiffness is that of the intrinsic Delaunay triangulation: without negative weights limbs collapse without folding.
+  IntrinsicMesh intrinsic = intrinsic_mesh(start);
+  make_delaunay(intrinsic);
+
+  // The discrete flow drifts on meshes of a few triangles, where fewer steps serve, and needs more passes on a needle.
+  PreprocessParameters fewer = parameters, more = parameters;
+  fewer.conformal_steps = std::min(parameters.conformal_steps, 5);
+  fewer.collapse_passes = 0;
+  more.collapse_passes = 4 * parameters.collapse_passes;
+  const FlipRepair repair(surface);
+  for (const PreprocessParameters& attempt : {parameters, fewer, more}) {
+    Points sphere = evolve(start, intrinsic, attempt, progress, report);
+    // Upright everywhere is not enough: the sphere could be covered more than once.
+    if (repair.repair(sphere) && std::abs(total_solid_angle(sphere, surface.faces) - 4 * std::numbers::pi) < 1e-6) return sphere;
+  }
+  throw EngineError(
+      ErrorCode::parametrization_failed,
+      "no spherical parametrisation without flipped triangles was found; parts of the surface may be too thin for their length");
 }
 
 }  // namespace spherematch
