@@ -33,7 +33,7 @@ bool FlipRepair::repair(Points& sphere) const {
     double thinness;
     int passes;
   };
-  for (const Attempt& attempt : {Attempt{0.01, 100}, Attempt{0.003, 200}, Attempt{0.0005, 400}}) {
+  for (const Attempt& attempt : {Attempt{0.01, 30}, Attempt{0.003, 200}, Attempt{0.0005, 400}}) {
     widen_all(sphere, attempt.thinness, attempt.passes);
     if (flipped_faces(sphere, faces_).empty()) return true;
   }
