@@ -24,7 +24,7 @@ api::Json to_json(const PreprocessParameters& parameters) {
 
 api::Json to_json(const MatchParameters& parameters) {
   const auto& [rotation_time, rotation_bandwidth, max_candidates, candidate_separation, candidate_threshold, flow_times, flow_resolution,
-               flow_iterations, flow_smoothness, paper_selection] = parameters;
+               flow_iterations, flow_smoothness, fine_candidates, paper_selection] = parameters;
   return {{"rotation_time", rotation_time},
           {"rotation_bandwidth", rotation_bandwidth},
           {"max_candidates", max_candidates},
@@ -34,6 +34,7 @@ api::Json to_json(const MatchParameters& parameters) {
           {"flow_resolution", flow_resolution},
           {"flow_iterations", flow_iterations},
           {"flow_smoothness", flow_smoothness},
+          {"fine_candidates", fine_candidates},
           {"paper_selection", paper_selection}};
 }
 

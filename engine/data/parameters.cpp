@@ -52,11 +52,16 @@ void MatchParameters::validate() const {
   for (const double t : flow_times) require(positive(t), "flow_times", "must be positive");
   require(flow_resolution >= 8 && flow_resolution <= 32 && flow_resolution % 2 == 0, "flow_resolution", "must be even, 8 to 32");
   require(flow_iterations >= 0 && flow_iterations <= 100, "flow_iterations", "must be 0 to 100");
+  require(fine_candidates >= 1, "fine_candidates", "must be at least 1");
   require(positive(flow_smoothness), "flow_smoothness", "must be positive");
 }
 
 MatchParameters MatchParameters::paper() {
   MatchParameters parameters;
+  parameters.max_candidates = 4;
+  parameters.candidate_separation = 3.0;
+  parameters.candidate_threshold = 0.1;
+  parameters.fine_candidates = parameters.max_candidates;
   parameters.paper_selection = true;
   return parameters;
 }

@@ -39,9 +39,9 @@ struct MatchParameters {
   // Rotational alignment (engine/register/rotation.h)
   double rotation_time = 1.0;  ///< heat kernel signature time of the rotation signal
   int rotation_bandwidth = 32;
-  int max_candidates = 4;             ///< K
-  double candidate_separation = 3.0;  ///< epsilon_1: squared Frobenius distance to a better candidate
-  double candidate_threshold = 0.1;   ///< epsilon_2: fraction of the best correlation that may be missing
+  int max_candidates = 8;             ///< K
+  double candidate_separation = 1.5;  ///< epsilon_1: squared Frobenius distance to a better candidate
+  double candidate_threshold = 0.3;   ///< epsilon_2: fraction of the best correlation that may be missing
 
   // Optical flow (engine/register/optical_flow.h): level i has resolution flow_resolution * 2^i and the signal of flow_times[i]
   std::vector<double> flow_times{0.5, 0.25, 0.125, 0.0625};
@@ -50,6 +50,7 @@ struct MatchParameters {
   double flow_smoothness = 0.05;  ///< alpha
 
   // Candidate selection (engine/register/selection.h)
+  int fine_candidates = 2;       ///< only this many best ones go on after the coarser half of the levels
   bool paper_selection = false;  ///< by the one signal at time 0.01, as the paper does
 
   /// @throws EngineError(invalid_parameter) naming the field and the reason

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
+#include <numeric>
 
 #include "engine/data/parallel.h"
 #include "engine/mesh/laplacian.h"
@@ -11,6 +11,7 @@
 #include "engine/register/rotation.h"
 #include "engine/register/selection.h"
 #include "engine/spectrum/signatures.h"
+#include "engine/sphere/flip_repair.h"
 #include "engine/sphere/harmonics.h"
 #include "engine/sphere/orientation.h"
 #include "engine/sphere/rasterizer.h"
@@ -70,51 +71,79 @@ std::vector<RotationCandidate> find_candidates(const PreprocessedShape& source, 
   return align_rotations({harmonics(s)}, {harmonics(t)}, degree, parameters);
 }
 
-FlowParameters flow_parameters(const MatchParameters& parameters) {
+/// The hierarchy's levels `first` to `last` - 1.
+FlowParameters flow_levels(const MatchParameters& parameters, std::size_t first, std::size_t last) {
   FlowParameters flow;
   flow.smoothness = parameters.flow_smoothness;
-  int resolution = parameters.flow_resolution;
-  for (std::size_t level = 0; level < parameters.flow_times.size(); ++level, resolution *= 2)
-    flow.levels.push_back({resolution, parameters.flow_iterations, {static_cast<Eigen::Index>(level)}});
+  for (std::size_t level = first; level < last; ++level)
+    flow.levels.push_back({parameters.flow_resolution << level, parameters.flow_iterations, {static_cast<Eigen::Index>(level)}});
   return flow;
 }
 
-struct Registered {
-  Points source, target;
-  std::vector<Location> locations;
+/// One candidate on its way through the flow.
+struct Registration {
+  FlowShape source, target;
+  std::vector<Location> locations;  ///< of the source's vertices in the target
   double score = 0;
 };
 
-Registered register_candidate(const Side& source, const Side& target, const Eigen::Matrix3d& rotation, const MatchParameters& parameters,
-                              const Progress& progress) {
-  // Rotation and flow are split evenly, so that exchanging the shapes gives the inverse map.
+/// Rotation and flow are split evenly, so that exchanging the shapes gives the inverse map.
+Registration rotated(const Side& source, const Side& target, const Eigen::Matrix3d& rotation) {
   const Eigen::Matrix3d half = half_rotation(rotation);
-  FlowShape s{&source.faces(), &source.flow_signals, &source.repair, source.shape.sphere * half.transpose()};
-  FlowShape t{&target.faces(), &target.flow_signals, &target.repair, target.shape.sphere * half};
-  flow_together(s, t, flow_parameters(parameters), progress);
-
-  Registered result;
-  result.locations = locate_all(s.sphere, PointLocation(t.sphere, target.faces()));
-  if (parameters.paper_selection) {
-    result.score = paper_cost(s.sphere, source.faces(), source.selection, t.sphere, target.faces(), target.selection, 128);
-  } else {
-    const std::vector<Location> back = locate_all(t.sphere, PointLocation(s.sphere, source.faces()));
-    result.score = 0.5 * (registration_cost(source.selection, source.weights, target.selection, target.faces(), result.locations) +
-                          registration_cost(target.selection, target.weights, source.selection, source.faces(), back));
-  }
-  result.source = std::move(s.sphere);
-  result.target = std::move(t.sphere);
-  return result;
+  return {{&source.faces(), &source.flow_signals, &source.repair, source.shape.sphere * half.transpose()},
+          {&target.faces(), &target.flow_signals, &target.repair, target.shape.sphere * half},
+          {},
+          0};
 }
 
-MatchQuality measure_map(const Side& source, const Side& target, const Registered& registered, const std::vector<Registered>& all) {
+void judge(Registration& registration, const Side& source, const Side& target, const MatchParameters& parameters) {
+  const Points &s = registration.source.sphere, &t = registration.target.sphere;
+  registration.locations = locate_all(s, PointLocation(t, target.faces()));
+  if (parameters.paper_selection) {
+    registration.score = paper_cost(s, source.faces(), source.selection, t, target.faces(), target.selection, 128);
+    return;
+  }
+  const std::vector<Location> back = locate_all(t, PointLocation(s, source.faces()));
+  registration.score =
+      0.5 * (registration_cost(source.selection, source.weights, target.selection, target.faces(), registration.locations) +
+             registration_cost(target.selection, target.weights, source.selection, source.faces(), back));
+}
+
+/// Flows the candidates: all of them through the coarse levels, the most promising ones to the end. Returns the index of the best.
+std::size_t flow_candidates(std::vector<Registration>& registrations, const Side& source, const Side& target,
+                            const MatchParameters& parameters, const Progress& progress, int threads) {
+  const std::size_t levels = parameters.flow_times.size();
+  std::vector<std::size_t> order(registrations.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto better = [&](std::size_t i, std::size_t j) { return registrations[i].score < registrations[j].score; };
+  const auto flow = [&](std::size_t first, std::size_t last) {
+    run_parallel(order.size(), threads, [&](std::size_t i) {
+      Registration& registration = registrations[order[i]];
+      flow_together(registration.source, registration.target, flow_levels(parameters, first, last), progress);
+      judge(registration, source, target, parameters);
+    });
+    std::stable_sort(order.begin(), order.end(), better);
+  };
+
+  std::size_t coarse = 0;
+  if (const auto fine = static_cast<std::size_t>(parameters.fine_candidates); order.size() > fine) {
+    coarse = levels / 2;
+    flow(0, coarse);
+    order.resize(fine);
+  }
+  flow(coarse, levels);
+  return order.front();
+}
+
+MatchQuality measure_map(const Side& source, const Side& target, const std::vector<Registration>& registrations, std::size_t chosen) {
   double runner_up = 0;
-  for (const Registered& other : all)
-    if (&other != &registered && (runner_up == 0 || other.score < runner_up)) runner_up = other.score;
+  for (std::size_t i = 0; i < registrations.size(); ++i)
+    if (i != chosen && (runner_up == 0 || registrations[i].score < runner_up)) runner_up = registrations[i].score;
+  const Registration& best = registrations[chosen];
   return {
-      {"flipped_source", static_cast<double>(flipped_faces(registered.source, source.faces()).size())},
-      {"flipped_target", static_cast<double>(flipped_faces(registered.target, target.faces()).size())},
-      {"score", registered.score},
+      {"flipped_source", static_cast<double>(flipped_faces(best.source.sphere, source.faces()).size())},
+      {"flipped_target", static_cast<double>(flipped_faces(best.target.sphere, target.faces()).size())},
+      {"score", best.score},
       {"score_runner_up", runner_up},
   };
 }
@@ -135,24 +164,22 @@ MatchResult register_pair(const PreprocessedShape& source_shape, const Preproces
 
   report("flow", 0.1);
   const Side source(source_shape, parameters), target(target_shape, parameters);
-  std::vector<Registered> registered(candidates.size());
-  run_parallel(candidates.size(), threads,
-               [&](std::size_t i) { registered[i] = register_candidate(source, target, candidates[i].rotation, parameters, progress); });
+  std::vector<Registration> registrations;
+  for (const RotationCandidate& candidate : candidates) registrations.push_back(rotated(source, target, candidate.rotation));
+  const std::size_t chosen = flow_candidates(registrations, source, target, parameters, progress, threads);
   result.seconds.emplace_back("flow", watch.lap());
 
   report("correspondence", 0.95);
-  const auto chosen =
-      std::min_element(registered.begin(), registered.end(), [](const auto& a, const auto& b) { return a.score < b.score; });
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     CandidateSummary summary;
     Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(summary.rotation.data()) = candidates[i].rotation;
     summary.correlation = candidates[i].correlation;
-    summary.score = registered[i].score;
-    summary.chosen = &registered[i] == &*chosen;
+    summary.score = registrations[i].score;
+    summary.chosen = i == chosen;
     result.candidates.push_back(summary);
   }
-  result.map = compose(source_shape.surface, target_shape.surface, chosen->locations);
-  result.quality = measure_map(source, target, *chosen, registered);
+  result.map = compose(source_shape.surface, target_shape.surface, registrations[chosen].locations);
+  result.quality = measure_map(source, target, registrations, chosen);
   result.seconds.emplace_back("correspondence", watch.lap());
   result.seconds.emplace_back("total", total.lap());
   report("correspondence", 1);

@@ -17,7 +17,7 @@ TEST(ParametersJson, EveryFieldOfAMatchShows) {
   EXPECT_TRUE(changed(&MatchParameters::rotation_bandwidth, 16));
   EXPECT_TRUE(changed(&MatchParameters::max_candidates, 1));
   EXPECT_TRUE(changed(&MatchParameters::candidate_separation, 1.0));
-  EXPECT_TRUE(changed(&MatchParameters::candidate_threshold, 0.3));
+  EXPECT_TRUE(changed(&MatchParameters::candidate_threshold, 0.2));
   EXPECT_TRUE(changed(&MatchParameters::flow_times, std::vector<double>{0.5}));
   EXPECT_TRUE(changed(&MatchParameters::flow_resolution, 8));
   EXPECT_TRUE(changed(&MatchParameters::flow_iterations, 1));
