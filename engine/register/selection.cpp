@@ -12,7 +12,7 @@ Eigen::MatrixXd selection_signals(const PreprocessedShape& shape) {
   constexpr int kEnergies = 16;
   const Eigen::MatrixXd heat = heat_kernel_signatures(shape.eigenvalues, shape.eigenvectors, {0.003, 0.001}).array().max(1e-12).log();
   const Eigen::MatrixXd wave = wave_kernel_signatures(shape.eigenvalues, shape.eigenvectors, kEnergies).rightCols(kEnergies / 2);
-  // Logarithms compare relative differences; the three kinds weigh alike.
+  // Logarithms compare relative differences. The two heat signals and all wave energies together weigh alike.
   Eigen::MatrixXd signals(heat.rows(), heat.cols() + wave.cols());
   signals << heat, wave.array().max(1e-12).log().matrix() * (1.0 / static_cast<double>(wave.cols()));
   return signals;
@@ -26,7 +26,7 @@ double registration_cost(const Eigen::MatrixXd& source_signals, const Eigen::Vec
     const auto image = at.bary[0] * target_signals.row(target_faces(at.face, 0)) +
                        at.bary[1] * target_signals.row(target_faces(at.face, 1)) +
                        at.bary[2] * target_signals.row(target_faces(at.face, 2));
-    cost += vertex_weights[v] * (source_signals.row(v) - image).cwiseAbs().sum();
+    cost += vertex_weights[v] * (source_signals.row(v) - image).cwiseAbs().mean();
   }
   return cost;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/SparseCholesky>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "engine/mesh/laplacian.h"
 #include "engine/sphere/flip_repair.h"
@@ -61,17 +62,18 @@ class ConformalFlow {
     density_ = face_means(conductivity, faces_);
   }
 
-  /// @throws EngineError(parametrization_failed)
-  void step() {
+  /// False where the system is singular or the flow diverges.
+  [[nodiscard]] bool step() {
     const Eigen::VectorXd current = face_areas(x_, faces_);
     flowing_.assemble(mass_, [&](Eigen::Index f) { return mass_element(density_[f] * current[f]); });
     for (Eigen::Index i = 0; i < system_.nonZeros(); ++i) system_.valuePtr()[i] = mass_.valuePtr()[i] + stiffness_.valuePtr()[i];
     solver_.factorize(system_);
-    if (solver_.info() != Eigen::Success) throw EngineError(ErrorCode::parametrization_failed, "the conformal flow met a singular system");
+    if (solver_.info() != Eigen::Success) return false;
     const Eigen::Matrix<double, Eigen::Dynamic, 3> right = mass_.selfadjointView<Eigen::Lower>() * x_;
     x_ = solver_.solve(right);
-    if (!x_.allFinite()) throw EngineError(ErrorCode::parametrization_failed, "the conformal flow diverged");
+    if (!x_.allFinite()) return false;
     normalize(x_, faces_);
+    return x_.allFinite();
   }
 
  private:
@@ -95,24 +97,25 @@ class ConformalFlow {
 
 constexpr double kLeastConductivity = 1e-30;  ///< keeps the system regular
 
-/// One run of the method, without a check of the result.
-Points evolve(const TriMesh& surface, const IntrinsicMesh& intrinsic, const PreprocessParameters& parameters, const Progress& progress,
-              const std::function<void(double)>& report) {
+/// One run of the method, without a check of the result. Nothing where the flow breaks down.
+std::optional<Points> evolve(const TriMesh& surface, const IntrinsicMesh& intrinsic, const PreprocessParameters& parameters,
+                             const Progress& progress, const std::function<void(double)>& report) {
   const Triangles& faces = surface.faces;
   Points x = surface.vertices;
   ConformalFlow flow(x, faces, intrinsic);
   Eigen::VectorXd conductivity = Eigen::VectorXd::Ones(x.rows());
   int done = 0;
   const int all = parameters.conformal_steps + parameters.collapse_passes * parameters.collapse_steps;
-  const auto run = [&](int steps) {
+  const auto run = [&](int steps) -> bool {
     flow.set_stiffness(conductivity, parameters.conformal_step_size);
     for (int step = 0; step < steps; ++step) {
       progress.check();
       if (report) report(static_cast<double>(done++) / all);
-      flow.step();
+      if (!flow.step()) return false;
     }
+    return true;
   };
-  run(parameters.conformal_steps);
+  if (!run(parameters.conformal_steps)) return std::nullopt;
 
   // A conformal map shrinks a limb exponentially with its length, past what doubles resolve. Lowering the conductivity where it
   // has shrunk most keeps the map harmonic, and free of flips, but makes it shrink less.
@@ -126,9 +129,10 @@ Points evolve(const TriMesh& surface, const IntrinsicMesh& intrinsic, const Prep
         count[faces(f, k)] += 1;
       }
     conductivity = (conductivity.array() * (log_sum.array() / count.array()).exp()).max(kLeastConductivity);
-    run(parameters.collapse_steps);
+    if (!run(parameters.collapse_steps)) return std::nullopt;
   }
-  return x.rowwise().normalized();
+  x.rowwise().normalize();
+  return x;
 }
 
 }  // namespace
@@ -147,11 +151,16 @@ Points conformal_parametrization(const TriMesh& surface, const PreprocessParamet
   fewer.collapse_passes = 0;
   more.collapse_passes = 4 * parameters.collapse_passes;
   const FlipRepair repair(surface);
+  const auto is_valid = [&](Points& sphere) {  // upright everywhere is not enough: the sphere could be covered more than once
+    return repair.repair(sphere) && std::abs(total_solid_angle(sphere, surface.faces) - 4 * std::numbers::pi) < 1e-6;
+  };
   for (const PreprocessParameters& attempt : {parameters, fewer, more}) {
-    Points sphere = evolve(start, intrinsic, attempt, progress, report);
-    // Upright everywhere is not enough: the sphere could be covered more than once.
-    if (repair.repair(sphere) && std::abs(total_solid_angle(sphere, surface.faces) - 4 * std::numbers::pi) < 1e-6) return sphere;
+    std::optional<Points> sphere = evolve(start, intrinsic, attempt, progress, report);
+    if (sphere && is_valid(*sphere)) return *sphere;
   }
+  // Long convex shapes with needle triangles are left: seen from their centre they are a sphere already, if not conformally.
+  Points radial = start.vertices.rowwise().normalized();
+  if (is_valid(radial)) return radial;
   throw EngineError(
       ErrorCode::parametrization_failed,
       "no spherical parametrisation without flipped triangles was found; parts of the surface may be too thin for their length");

@@ -11,6 +11,28 @@ Eigen::Vector3d face_center(const Points& sphere, const Triangles& faces, Eigen:
   return (sphere.row(faces(f, 0)) + sphere.row(faces(f, 1)) + sphere.row(faces(f, 2))).normalized();
 }
 
+struct Moments {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();      ///< centre of mass
+  Eigen::Matrix3d derivative = Eigen::Matrix3d::Zero();  ///< of the centre by the boost
+};
+
+Moments measure(const Points& sphere, const Triangles& faces, const Eigen::VectorXd& face_mass) {
+  Moments moments;
+  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
+    const Eigen::Vector3d c = face_center(sphere, faces, f);
+    moments.center += face_mass[f] * c;
+    moments.derivative += 2 * face_mass[f] * (Eigen::Matrix3d::Identity() - c * c.transpose());
+  }
+  return moments;
+}
+
+/// The Newton step, shortened to stay inside the ball; zero at the solution.
+Eigen::Vector3d newton_boost(const Moments& moments) {
+  const Eigen::Vector3d s = -moments.derivative.ldlt().solve(moments.center);
+  const double length = s.norm();
+  return length > 1e-15 ? Eigen::Vector3d(std::tanh(std::min(length, 2.0)) / length * s) : Eigen::Vector3d::Zero();
+}
+
 }  // namespace
 
 void boost(Points& sphere, const Eigen::Vector3d& c) {
@@ -22,23 +44,28 @@ void boost(Points& sphere, const Eigen::Vector3d& c) {
 }
 
 double centering_step(Points& sphere, const Triangles& faces, const Eigen::VectorXd& face_mass) {
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d derivative = Eigen::Matrix3d::Zero();
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    const Eigen::Vector3d c = face_center(sphere, faces, f);
-    center += face_mass[f] * c;
-    derivative += 2 * face_mass[f] * (Eigen::Matrix3d::Identity() - c * c.transpose());
-  }
-  const Eigen::Vector3d s = -derivative.ldlt().solve(center);
-  const double length = s.norm();
-  if (length > 1e-15) boost(sphere, std::tanh(std::min(length, 2.0)) / length * s);
-  return center.norm();
+  const Moments moments = measure(sphere, faces, face_mass);
+  boost(sphere, newton_boost(moments));
+  return moments.center.norm();
 }
 
 double center(Points& sphere, const Triangles& faces, const Eigen::VectorXd& face_mass) {
-  double distance = 1;
-  for (int i = 0; i < 100 && distance > 1e-10; ++i) distance = centering_step(sphere, faces, face_mass);
-  return distance;
+  Moments moments = measure(sphere, faces, face_mass);
+  for (int i = 0; i < 100 && moments.center.norm() > 1e-10; ++i) {
+    // Far from the solution a whole step can overshoot; halved often enough it descends.
+    double length = 1;
+    for (; length > 1e-6; length /= 2) {
+      Points trial = sphere;
+      boost(trial, length * newton_boost(moments));
+      const Moments after = measure(trial, faces, face_mass);
+      if (after.center.norm() >= moments.center.norm()) continue;
+      sphere = std::move(trial);
+      moments = after;
+      break;
+    }
+    if (length <= 1e-6) break;
+  }
+  return moments.center.norm();
 }
 
 void rotate_to_principal_axes(Points& sphere, const Triangles& faces, const Eigen::VectorXd& face_mass) {

@@ -207,19 +207,31 @@ void for_each_piece(const Points& sphere, const Triangles& faces, int resolution
   }
 }
 
-/// Fills cells of zero weight from their neighbours along the row, then from the row before.
+/// Fills cells of zero weight from their nearest neighbours in the row, and rows without any weight from the nearest row.
 void fill_empty_cells(const Grid& weight, Grid& values) {
   const Eigen::Index n = values.rows();
-  for (Eigen::Index j = 0; j < n; ++j)
+  std::vector<Eigen::Index> filled;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    if (!(weight.row(j) > 0).any()) continue;
+    filled.push_back(j);
     for (Eigen::Index i = 0; i < n; ++i) {
       if (weight(j, i) > 0) continue;
       double sum = 0;
       int count = 0;
       for (Eigen::Index reach = 1; reach < n && count == 0; ++reach)
         for (const Eigen::Index k : {(i + reach) % n, (i + n - reach) % n})
-          if (weight(j, k) > 0) sum += values(j, k), ++count;
-      values(j, i) = count > 0 ? sum / count : (j > 0 ? values(j - 1, i) : 0.0);
+          if (weight(j, k) > 0) {
+            sum += values(j, k);
+            ++count;
+          }
+      values(j, i) = sum / count;
     }
+  }
+  for (Eigen::Index j = 0; j < n && !filled.empty(); ++j) {
+    const auto nearest =
+        std::min_element(filled.begin(), filled.end(), [j](Eigen::Index a, Eigen::Index b) { return std::abs(a - j) < std::abs(b - j); });
+    if (*nearest != j) values.row(j) = values.row(*nearest);
+  }
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct RasterPiece {
 [[nodiscard]] Grid rasterize_mass(const Points& sphere, const Triangles& faces, const Eigen::VectorXd& face_mass, int resolution);
 
 /// Mean over each cell of a piecewise linear function given at the vertices, for each column of `values` (V, C).
-/// A cell that no triangle reaches takes the mean of its column of the grid's neighbours, so the result is finite.
+/// A cell that no triangle reaches takes the value of its neighbours, so the result is finite.
 [[nodiscard]] std::vector<Grid> rasterize_signals(const Points& sphere, const Triangles& faces, const Eigen::MatrixXd& values,
                                                   int resolution);
 

@@ -4,8 +4,11 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <random>
 #include <tuple>
 #include <vector>
@@ -23,21 +26,36 @@ double cotangent(const IntrinsicMesh& mesh, Eigen::Index f, int k) {
   return (m * m + n * n - l * l) / (4 * std::sqrt(s * (s - l) * (s - m) * (s - n)));
 }
 
-/// The sum of the two cotangents opposite each edge. Both sides of an edge have the same bits for its length, which tells apart
-/// several edges between two vertices.
-std::vector<double> cotangent_sums(const IntrinsicMesh& mesh) {
-  std::map<std::tuple<std::int32_t, std::int32_t, double>, std::vector<double>> sides;
+/// The sum of the two cotangents opposite an edge.
+struct EdgeSum {
+  double sum = 0;
+  bool encloses_a_vertex = false;  ///< both opposite corners are one vertex: a flip would join it to itself
+};
+
+/// Both sides of an edge have the same bits for its length, which tells apart several edges between two vertices.
+std::vector<EdgeSum> cotangent_sums(const IntrinsicMesh& mesh) {
+  struct Side {
+    double cotangent;
+    std::int32_t opposite;
+  };
+  std::map<std::tuple<std::int32_t, std::int32_t, double>, std::vector<Side>> edges;
   for (Eigen::Index f = 0; f < mesh.faces.rows(); ++f)
     for (int k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax({mesh.faces(f, (k + 1) % 3), mesh.faces(f, (k + 2) % 3)});
-      sides[{low, high, mesh.lengths(f, k)}].push_back(cotangent(mesh, f, k));
+      edges[{low, high, mesh.lengths(f, k)}].push_back({cotangent(mesh, f, k), mesh.faces(f, k)});
     }
-  std::vector<double> sums;
-  for (const auto& [edge, cotangents] : sides) {
-    EXPECT_EQ(cotangents.size(), 2U) << "edge " << std::get<0>(edge) << " " << std::get<1>(edge) << " has not two sides";
-    sums.push_back(cotangents.front() + cotangents.back());
+  std::vector<EdgeSum> sums;
+  for (const auto& [edge, sides] : edges) {
+    EXPECT_EQ(sides.size(), 2U) << "edge " << std::get<0>(edge) << " " << std::get<1>(edge) << " has not two sides";
+    sums.push_back({sides.front().cotangent + sides.back().cotangent, sides.front().opposite == sides.back().opposite});
   }
   return sums;
+}
+
+double least(const std::vector<EdgeSum>& sums) {
+  double result = std::numeric_limits<double>::infinity();
+  for (const EdgeSum& edge : sums) result = std::min(result, edge.sum);
+  return result;
 }
 
 void expect_triangles(const IntrinsicMesh& mesh) {
@@ -58,20 +76,31 @@ TriMesh rough(int level, double noise) {
 }
 
 TEST(MakeDelaunay, LeavesNoNegativeWeight) {
-  for (const TriMesh& mesh : {rough(3, 0.05), rough(3, 0.3), test::creature(4), test::torus(30, 5)}) {
+  for (const TriMesh& mesh : {rough(3, 0.05), rough(3, 0.15), test::creature(4)}) {
     IntrinsicMesh intrinsic = intrinsic_mesh(mesh);
-    const std::vector<double> before = cotangent_sums(intrinsic);
-    ASSERT_LT(*std::min_element(before.begin(), before.end()), -0.01) << "nothing to do";
+    ASSERT_LT(least(cotangent_sums(intrinsic)), -0.01) << "nothing to do";
     const double area = face_areas(intrinsic).sum();
     make_delaunay(intrinsic);
     expect_triangles(intrinsic);
-    const std::vector<double> after = cotangent_sums(intrinsic);
-    EXPECT_GE(*std::min_element(after.begin(), after.end()), -1e-8);
-    // Measured: 3e-15.
-    EXPECT_NEAR(face_areas(intrinsic).sum(), area, 1e-12 * area);
+    EXPECT_GE(least(cotangent_sums(intrinsic)), -1e-8);
+    // Measured: 2e-16.
+    EXPECT_NEAR(face_areas(intrinsic).sum(), area, 1e-13 * area);
     EXPECT_NEAR(area, test::total_area(mesh), 1e-12 * area) << "mollified without need";
     EXPECT_EQ(intrinsic.faces.rows(), mesh.face_count());
   }
+}
+
+TEST(MakeDelaunay, StopsOnlyWhereAFlipWouldJoinAVertexToItself) {
+  // So much noise that spikes appear, whose tips have angles of much less than 360 degrees.
+  IntrinsicMesh intrinsic = intrinsic_mesh(rough(3, 0.3));
+  make_delaunay(intrinsic);
+  expect_triangles(intrinsic);
+  int left = 0;
+  for (const EdgeSum& edge : cotangent_sums(intrinsic)) {
+    EXPECT_TRUE(edge.sum >= -1e-8 || edge.encloses_a_vertex);
+    left += edge.sum < -1e-8 ? 1 : 0;
+  }
+  EXPECT_LE(left, 6);  // of 1920 edges; measured: 3
 }
 
 TEST(MakeDelaunay, KeepsTheAngleSumOfEveryVertex) {
@@ -86,7 +115,7 @@ TEST(MakeDelaunay, KeepsTheAngleSumOfEveryVertex) {
   const Eigen::VectorXd before = angle_sums(intrinsic);
   make_delaunay(intrinsic);
   // The metric has not changed, so neither has the curvature.
-  EXPECT_LT((angle_sums(intrinsic) - before).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((angle_sums(intrinsic) - before).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST(MakeDelaunay, LowersTheDirichletEnergyOfEveryFunction) {
@@ -115,7 +144,7 @@ struct Bag {
   }
 };
 
-Bag flat_bag(int side) {
+Bag flat_bag(int side, double shear) {
   std::mt19937_64 random(3);
   Bag bag{{}, side};
   const int inner = side - 2;
@@ -130,7 +159,7 @@ Bag flat_bag(int side) {
       const bool border = lower(i, j) == upper(i, j);
       for (const int v : {upper(i, j), lower(i, j)}) {
         const double x = i + (border ? 0 : jitter()), y = j + (border ? 0 : jitter());
-        bag.mesh.vertices.row(v) << x + 2.5 * y, y, 0;
+        bag.mesh.vertices.row(v) << x + shear * y, y, 0;
       }
     }
   std::vector<std::array<int, 3>> faces;
@@ -148,7 +177,7 @@ Bag flat_bag(int side) {
 }
 
 TEST(MakeDelaunay, KeepsAFlatPatchFlat) {
-  const Bag bag = flat_bag(14);
+  const Bag bag = flat_bag(14, 2.5);
   const auto middle = [&](std::int32_t v) {  // so deep inside a sheet that no edge to it comes from the other
     const double y = bag.mesh.vertices(v, 1), x = bag.mesh.vertices(v, 0) - 2.5 * y;
     return bag.inside(v) && x > 4 && x < 9 && y > 4 && y < 9;
@@ -161,40 +190,49 @@ TEST(MakeDelaunay, KeepsAFlatPatchFlat) {
       const std::int32_t a = intrinsic.faces(f, (k + 1) % 3), b = intrinsic.faces(f, (k + 2) % 3);
       if (!middle(a) || !middle(b)) continue;
       // An edge of the flat sheet is as long as its ends are apart.
-      ASSERT_NEAR(intrinsic.lengths(f, k), (bag.mesh.vertices.row(a) - bag.mesh.vertices.row(b)).norm(), 1e-12);
+      ASSERT_NEAR(intrinsic.lengths(f, k), (bag.mesh.vertices.row(a) - bag.mesh.vertices.row(b)).norm(), 1e-13);
       ++edges;
       changed += intrinsic.faces(f, k) != bag.mesh.faces(f, k) ? 1 : 0;
     }
   EXPECT_GT(edges, 100);
   EXPECT_GT(changed, 30);
-  // Linear functions are harmonic wherever the surface is flat.
+  // Linear functions are harmonic wherever the surface is flat. Measured: 3e-14.
   const SparseMatrix stiffness = cotangent_laplacian(intrinsic, bag.mesh.vertex_count()).stiffness;
   const Points residual = stiffness.selfadjointView<Eigen::Lower>() * bag.mesh.vertices;
   for (std::int32_t v = 0; v < bag.mesh.vertex_count(); ++v)
-    if (middle(v)) { EXPECT_LT(residual.row(v).norm(), 1e-11) << "vertex " << v; }
+    if (middle(v)) {
+      EXPECT_LT(residual.row(v).norm(), 1e-12) << "vertex " << v;
+    }
 }
 
-/// Shares by which one basis differs from another are compared by sums over clusters.
-TEST(MakeDelaunay, KeepsTheSpectrumUpToDiscretisation) {
+TEST(MakeDelaunay, BringsTheSpectrumOfAFlatBagCloserToTheTruth) {
+  // A bag of pi by pi: eigenvalues m^2 + n^2, for m, n >= 0 (even across the border) and again for m, n >= 1 (odd).
   const auto lowest = [](const IntrinsicMesh& mesh, Eigen::Index vertices) {
     const Laplacian laplacian = cotangent_laplacian(mesh, vertices);
     const Eigen::MatrixXd stiffness = Eigen::MatrixXd(laplacian.stiffness).selfadjointView<Eigen::Lower>();
     const Eigen::MatrixXd mass = Eigen::MatrixXd(laplacian.mass).selfadjointView<Eigen::Lower>();
-    return Eigen::VectorXd(Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, mass, Eigen::EigenvaluesOnly).eigenvalues().head(12));
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass, Eigen::EigenvaluesOnly);
+    return Eigen::VectorXd(solver.eigenvalues().head(12));
   };
-  const Bag bag = flat_bag(14);
-  IntrinsicMesh intrinsic = intrinsic_mesh(bag.mesh);
-  const Eigen::VectorXd before = lowest(intrinsic, bag.mesh.vertex_count());
+  const double exact = 0 + 1 + 1 + 2 + 2 + 4 + 4 + 5 + 5 + 5 + 5 + 8;
+  const Bag bag = flat_bag(18, 0);
+  TriMesh square = bag.mesh;
+  square.vertices *= std::numbers::pi / (bag.side - 1);
+  // Narrow cells: the vertices crowd towards one side.
+  for (double& x : square.vertices.col(0)) x = x * x / std::numbers::pi;
+  IntrinsicMesh intrinsic = intrinsic_mesh(square);
+  const double before = lowest(intrinsic, square.vertex_count()).sum();
   make_delaunay(intrinsic);
-  const Eigen::VectorXd after = lowest(intrinsic, bag.mesh.vertex_count());
-  std::printf("sums %g %g\n", before.sum(), after.sum());
+  const Eigen::VectorXd after = lowest(intrinsic, square.vertex_count());
   EXPECT_NEAR(after[0], 0, 1e-10);
-  EXPECT_NEAR(after.sum(), before.sum(), 0.05 * before.sum());
-  EXPECT_LT(after.sum(), before.sum());  // as the energies are
+  EXPECT_GT(after.sum(), exact);
+  EXPECT_LT(after.sum(), before);
+  // Measured: 43.22 before, 43.03 after, 42 in truth.
+  EXPECT_LT(after.sum(), 1.04 * exact);
 }
 
 TEST(IntrinsicMesh, MollifiesDegenerateTriangles) {
-  // A vertex moved onto its neighbour, another onto the middle of the opposite edge, and a third onto its edge's line.
+  // A vertex moved onto its neighbour, and another onto the middle of the opposite edge.
   TriMesh mesh = test::icosphere(2);
   mesh.vertices.row(mesh.faces(10, 1)) = mesh.vertices.row(mesh.faces(10, 0));
   mesh.vertices.row(mesh.faces(200, 0)) = 0.5 * (mesh.vertices.row(mesh.faces(200, 1)) + mesh.vertices.row(mesh.faces(200, 2)));
@@ -214,8 +252,7 @@ TEST(IntrinsicMesh, MollifiesDegenerateTriangles) {
     ASSERT_TRUE(stiffness.allFinite());
     const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, Eigen::EigenvaluesOnly).eigenvalues();
     EXPECT_GT(eigenvalues[0], -1e-12 * eigenvalues[eigenvalues.size() - 1]);
-    const std::vector<double> sums = cotangent_sums(intrinsic);
-    std::printf("degenerate min sum %g\n", *std::min_element(sums.begin(), sums.end()));
+    EXPECT_GE(least(cotangent_sums(intrinsic)), -1e-8);
   }
 }
 
@@ -225,7 +262,8 @@ TEST(IntrinsicMesh, IsTheMeshItselfWhereNothingIsDegenerate) {
   EXPECT_TRUE(intrinsic.faces == mesh.faces);
   for (Eigen::Index f = 0; f < mesh.face_count(); ++f)
     for (int k = 0; k < 3; ++k)
-      ASSERT_EQ(intrinsic.lengths(f, k), (mesh.vertices.row(mesh.faces(f, (k + 1) % 3)) - mesh.vertices.row(mesh.faces(f, (k + 2) % 3))).norm());
+      ASSERT_EQ(intrinsic.lengths(f, k),
+                (mesh.vertices.row(mesh.faces(f, (k + 1) % 3)) - mesh.vertices.row(mesh.faces(f, (k + 2) % 3))).norm());
   EXPECT_LT((face_areas(intrinsic) - face_areas(mesh.vertices, mesh.faces)).cwiseAbs().maxCoeff(), 1e-12);
 }
 

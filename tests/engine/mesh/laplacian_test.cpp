@@ -63,11 +63,11 @@ TEST(CotangentLaplacian, AnnihilatesConstantsAtEveryScale) {
     const Laplacian laplacian = laplacian_of(mesh);
     const SparseMatrix stiffness = full(laplacian.stiffness), mass = full(laplacian.mass);
     const Eigen::VectorXd ones = Eigen::VectorXd::Ones(mesh.vertex_count());
-    // Measured: 7e-15 of the largest diagonal entry.
-    EXPECT_LT((stiffness * ones).cwiseAbs().maxCoeff(), 1e-13 * stiffness.diagonal().maxCoeff()) << scale;
+    // Measured: 4e-16 of the largest diagonal entry.
+    EXPECT_LT((stiffness * ones).cwiseAbs().maxCoeff(), 1e-14 * stiffness.diagonal().maxCoeff()) << scale;
     EXPECT_GT(stiffness.diagonal().minCoeff(), 0);
     const double area = test::total_area(mesh);
-    EXPECT_NEAR(ones.dot(mass * ones), area, 1e-12 * area) << scale;
+    EXPECT_NEAR(ones.dot(mass * ones), area, 1e-13 * area) << scale;
   }
 }
 
@@ -86,7 +86,8 @@ TEST(CotangentLaplacian, IsTheDirichletFormOfTheMesh) {
   const Eigen::VectorXd u = mesh.vertices * Eigen::Vector3d(0.3, -1.2, 0.7) + mesh.vertices.col(0).cwiseProduct(mesh.vertices.col(1));
   double energy = 0, square = 0;
   for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
-    const Eigen::Vector3d a = mesh.vertices.row(mesh.faces(f, 0)), b = mesh.vertices.row(mesh.faces(f, 1)), c = mesh.vertices.row(mesh.faces(f, 2));
+    const Eigen::Vector3d a = mesh.vertices.row(mesh.faces(f, 0)), b = mesh.vertices.row(mesh.faces(f, 1)),
+                          c = mesh.vertices.row(mesh.faces(f, 2));
     const double ua = u[mesh.faces(f, 0)], ub = u[mesh.faces(f, 1)], uc = u[mesh.faces(f, 2)];
     Eigen::Matrix3d system;
     system << (b - a).transpose(), (c - a).transpose(), (b - a).cross(c - a).transpose();
@@ -96,8 +97,8 @@ TEST(CotangentLaplacian, IsTheDirichletFormOfTheMesh) {
     // Edge midpoints integrate quadratics exactly.
     square += area / 3 * (std::pow((ua + ub) / 2, 2) + std::pow((ub + uc) / 2, 2) + std::pow((uc + ua) / 2, 2));
   }
-  EXPECT_NEAR(u.dot(stiffness * u), energy, 1e-12 * energy);
-  EXPECT_NEAR(u.dot(mass * u), square, 1e-12 * square);
+  EXPECT_NEAR(u.dot(stiffness * u), energy, 1e-13 * energy);
+  EXPECT_NEAR(u.dot(mass * u), square, 1e-13 * square);
 }
 
 TEST(CotangentLaplacian, HasTheCoordinatesOfTheUnitAreaSphereAsEigenfunctions) {
@@ -108,18 +109,21 @@ TEST(CotangentLaplacian, HasTheCoordinatesOfTheUnitAreaSphereAsEigenfunctions) {
     const SparseMatrix stiffness = full(laplacian.stiffness), mass = full(laplacian.mass);
     const Eigen::VectorXd x = mesh.vertices.col(0);
     const double error = std::abs(x.dot(stiffness * x) / x.dot(mass * x) / (8 * pi) - 1);
-    if (previous > 0) { EXPECT_LT(error, previous / 3.5); }
+    if (previous > 0) {
+      EXPECT_LT(error, previous / 3.5);
+    }
     previous = error;
 
     // One step of the conformal flow at step size 0.4 therefore shrinks the sphere to 1 / (1 + 0.4 * 8 pi) = 0.0905.
     Eigen::SimplicialLDLT<SparseMatrix> solver(mass + 0.4 * stiffness);
     const Points shrunk = solver.solve(mass * mesh.vertices);
     const Eigen::VectorXd factors = shrunk.rowwise().norm().cwiseQuotient(mesh.vertices.rowwise().norm());
-    EXPECT_NEAR(factors.mean(), 1 / (1 + 0.4 * 8 * pi), 5 * error);
-    EXPECT_LT(factors.maxCoeff() - factors.minCoeff(), 1e-3);
-    std::printf("level %d error %g factor %g spread %g\n", level, error, factors.mean(), factors.maxCoeff() - factors.minCoeff());
+    // Measured: 0.09039 and 0.09045 for 0.09048, with a spread of 1.6e-4 and 5e-5.
+    EXPECT_NEAR(factors.mean(), 1 / (1 + 0.4 * 8 * pi), 0.2 * error);
+    EXPECT_LT(factors.maxCoeff() - factors.minCoeff(), 4e-4);
   }
-  EXPECT_LT(previous, 2e-3);
+  // Measured: 9.8e-4, 2.5e-4.
+  EXPECT_LT(previous, 5e-4);
 }
 
 TEST(ElementAssembler, SumsTwoTriangulationsIntoOnePattern) {
@@ -137,7 +141,7 @@ TEST(ElementAssembler, SumsTwoTriangulationsIntoOnePattern) {
   const ElementAssembler assembler(pattern, flipped.faces);
   assembler.assemble(matrix, element);
   assembler.assemble(matrix, element);  // overwrites
-  EXPECT_EQ((matrix - cotangent_laplacian(flipped, mesh.vertex_count()).stiffness).norm(), 0);
+  EXPECT_LT((matrix - cotangent_laplacian(flipped, mesh.vertex_count()).stiffness).norm(), 1e-14 * matrix.norm());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <Eigen/SparseCholesky>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -34,36 +35,39 @@ TEST(Eigenbasis, OfTheSphereHasItsEigenvaluesWithTheirMultiplicities) {
   for (const int level : {3, 4}) {
     const Eigenbasis basis = basis_of(icosphere(level), 50);
     ASSERT_EQ(basis.values.size(), 50);
-    EXPECT_NEAR(basis.values[0], 0, 1e-8);
+    EXPECT_NEAR(basis.values[0], 0, 1e-10);
     for (int l = 1; l <= 6; ++l) {
       const Eigen::VectorXd cluster = basis.values.segment(l * l, 2 * l + 1);
       const double exact = 4 * pi * l * (l + 1), error = (cluster.array() / exact - 1).abs().maxCoeff();
-      std::printf("level %d l %d error %g\n", level, l, error);
       // Linear elements approach from above, with an error of second order.
       EXPECT_GT(cluster.minCoeff(), exact);
+      // Measured at l = 1 to 6: 0.00098 to 0.063 at level 3, a quarter of that at level 4.
       EXPECT_LT(error, level == 3 ? 0.09 : 0.025) << "l " << l;
-      if (level == 4) { EXPECT_LT(error, previous[static_cast<std::size_t>(l)] / 3.5) << "l " << l; }
+      if (level == 4) {
+        EXPECT_LT(error, previous[static_cast<std::size_t>(l)] / 3.5) << "l " << l;
+      }
       previous[static_cast<std::size_t>(l)] = error;
     }
     EXPECT_GT(basis.values[49], 4 * pi * 7 * 7);
   }
 }
 
-/// M-norms of S v / lambda - M v in the dual norm's simplest stand-in, relative to |M v|.
 void expect_eigenpairs(const Eigenbasis& basis, const IntrinsicMesh& mesh, Eigen::Index vertices) {
   const Laplacian laplacian = cotangent_laplacian(mesh, vertices);
   const SparseMatrix stiffness = laplacian.stiffness.selfadjointView<Eigen::Lower>(), mass = laplacian.mass.selfadjointView<Eigen::Lower>();
   const Eigen::MatrixXd gram = basis.vectors.transpose() * mass * basis.vectors;
-  std::printf("gram %g\n", (gram - Eigen::MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff());
-  EXPECT_LT((gram - Eigen::MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff(), 1e-9);
+  // Measured: 4e-14.
+  EXPECT_LT((gram - Eigen::MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff(), 1e-12);
   double worst = 0;
   for (Eigen::Index i = 0; i < basis.values.size(); ++i) {
     const Eigen::VectorXd mv = mass * basis.vectors.col(i), residual = stiffness * basis.vectors.col(i) - basis.values[i] * mv;
     worst = std::max(worst, residual.norm() / ((1 + basis.values[i]) * mv.norm()));
-    if (i > 0) { EXPECT_GE(basis.values[i], basis.values[i - 1]); }
+    if (i > 0) {
+      EXPECT_GE(basis.values[i], basis.values[i - 1]);
+    }
   }
-  std::printf("residual %g\n", worst);
-  EXPECT_LT(worst, 1e-7);
+  // The solver's tolerance is 1e-9. Measured: 2e-11.
+  EXPECT_LT(worst, 1e-9);
 }
 
 TEST(Eigenbasis, SolvesTheEigenproblemAndIsOrthonormal) {
@@ -71,8 +75,8 @@ TEST(Eigenbasis, SolvesTheEigenproblemAndIsOrthonormal) {
     const IntrinsicMesh intrinsic = unit_area(mesh);
     const Eigenbasis basis = compute_eigenbasis(intrinsic, mesh.vertex_count(), 80, {});
     expect_eigenpairs(basis, intrinsic, mesh.vertex_count());
-    EXPECT_NEAR(basis.values[0], 0, 1e-8);
-    EXPECT_LT((basis.vectors.col(0).array().abs() - 1).abs().maxCoeff(), 1e-8) << "the constant of the unit-area surface is one";
+    EXPECT_NEAR(basis.values[0], 0, 1e-10);
+    EXPECT_LT((basis.vectors.col(0).array().abs() - 1).abs().maxCoeff(), 1e-10) << "the constant of the unit-area surface is one";
   }
 }
 
@@ -82,11 +86,26 @@ TEST(Eigenbasis, FindsWhatADenseSolverFinds) {
   const Laplacian laplacian = cotangent_laplacian(intrinsic, mesh.vertex_count());
   const Eigen::MatrixXd stiffness = Eigen::MatrixXd(laplacian.stiffness).selfadjointView<Eigen::Lower>();
   const Eigen::MatrixXd mass = Eigen::MatrixXd(laplacian.mass).selfadjointView<Eigen::Lower>();
-  const Eigen::VectorXd exact = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, mass, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd exact =
+      Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, mass, Eigen::EigenvaluesOnly).eigenvalues();
   for (const int count : {10, 60, 150}) {
     const Eigenbasis basis = compute_eigenbasis(intrinsic, mesh.vertex_count(), count, {});
     ASSERT_EQ(basis.values.size(), count);
-    EXPECT_LT((basis.values - exact.head(count)).cwiseAbs().maxCoeff(), 1e-7 * exact[count]) << "a pair was missed";
+    // Measured: 2e-14 of the largest.
+    EXPECT_LT((basis.values - exact.head(count)).cwiseAbs().maxCoeff(), 1e-11 * exact[count]) << "a pair was missed";
+  }
+}
+
+TEST(Eigenbasis, MissesNoneOfSeveralEqualEigenvalues) {
+  // By Sylvester's law of inertia S - sigma M has as many negative pivots as there are eigenvalues below sigma.
+  const TriMesh mesh = icosphere(3);
+  const IntrinsicMesh intrinsic = unit_area(mesh);
+  const Laplacian laplacian = cotangent_laplacian(intrinsic, mesh.vertex_count());
+  for (const int count : {20, 30, 45, 49, 64, 100, 200}) {
+    const Eigenbasis basis = compute_eigenbasis(intrinsic, mesh.vertex_count(), count, {});
+    const double sigma = basis.values[count - 1] * (1 - 1e-7);
+    const Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> factors(laplacian.stiffness - sigma * laplacian.mass);
+    EXPECT_EQ((basis.values.array() < sigma).count(), (factors.vectorD().array() < 0).count()) << "of " << count << " pairs";
   }
 }
 
@@ -106,8 +125,8 @@ TEST(Eigenbasis, GivesTheSphereItsHeatKernelSignatures) {
   const double exact[] = {8.29967, 1.66912, 1.13005};
   for (Eigen::Index t = 0; t < 3; ++t) {
     const double error = (signatures.col(t).array() / exact[t] - 1).abs().maxCoeff();
-    std::printf("hks %g: %g\n", exact[t], error);
-    EXPECT_LT(error, 0.01);
+    // Discretisation: eigenvalues are too large. Measured: 3.5e-3, 3.3e-4, 8e-5.
+    EXPECT_LT(error, t == 0 ? 7e-3 : (t == 1 ? 7e-4 : 2e-4));
   }
 }
 
@@ -120,15 +139,17 @@ TEST(Eigenbasis, SignaturesDoNotDependOnPlaceSizeTurnAndNumbering) {
   };
   const Eigen::MatrixXd reference = signatures(mesh);
   const Eigen::MatrixXd moved = signatures(test::transformed(mesh, 170, test::some_rotation(), {900, -40, 300}));
-  std::printf("moved %g\n", (moved - reference).cwiseAbs().cwiseQuotient(reference).maxCoeff());
-  EXPECT_LT((moved - reference).cwiseAbs().cwiseQuotient(reference).maxCoeff(), 1e-6);
+  // Measured: 2e-14, 3e-14; but an entry may round to another float, which is a difference of 1e-7.
+  EXPECT_LT((moved - reference).cwiseAbs().cwiseQuotient(reference).maxCoeff(), 1e-7);
   const std::vector<std::int32_t> order = test::shuffled(static_cast<std::int32_t>(mesh.vertex_count()), 5);
   const Eigen::MatrixXd renumbered = signatures(test::renumbered(mesh, order));
   double worst = 0;
   for (std::size_t i = 0; i < order.size(); ++i)
-    worst = std::max(worst, (renumbered.row(static_cast<Eigen::Index>(i)) - reference.row(order[i])).cwiseQuotient(reference.row(order[i])).cwiseAbs().maxCoeff());
-  std::printf("renumbered %g\n", worst);
-  EXPECT_LT(worst, 1e-6);
+    worst = std::max(worst, (renumbered.row(static_cast<Eigen::Index>(i)) - reference.row(order[i]))
+                                .cwiseQuotient(reference.row(order[i]))
+                                .cwiseAbs()
+                                .maxCoeff());
+  EXPECT_LT(worst, 1e-7);
 }
 
 TEST(Eigenbasis, IsDeterministicAndStopsWhenAsked) {

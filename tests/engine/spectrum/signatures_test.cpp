@@ -69,7 +69,7 @@ TEST(WaveKernelSignatures, OfTheSphereAreOne) {
   const Eigen::MatrixXd signatures = wave_kernel_signatures(basis.values, basis.vectors, 16);
   ASSERT_EQ(signatures.rows(), 50);
   ASSERT_EQ(signatures.cols(), 16);
-  EXPECT_LT((signatures.array() - 1).abs().maxCoeff(), 1e-5);
+  EXPECT_LT((signatures.array() - 1).abs().maxCoeff(), 1e-6);
 }
 
 TEST(WaveKernelSignatures, AreFiniteForASmallBasis) {

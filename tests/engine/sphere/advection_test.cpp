@@ -35,7 +35,9 @@ TEST(GeodesicStep, FollowsGreatCircles) {
 TEST(TangentField, InterpolatesToSecondOrderEverywhereWithThePoles) {
   // The tangential part of a constant vector is smooth at the poles, though its components there are not.
   const Eigen::Vector3d constant(0.8, -0.5, 0.3);
-  const auto exact = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d { return constant - constant.dot(p) * p + p.cross(test::smooth_gradient(p)); };
+  const auto exact = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    return constant - constant.dot(p) * p + p.cross(test::smooth_gradient(p));
+  };
   double previous = 0;
   for (const int resolution : {32, 64, 128}) {
     const TangentField field(test::sampled_field(resolution, exact));
@@ -55,7 +57,9 @@ TEST(TangentField, InterpolatesToSecondOrderEverywhereWithThePoles) {
           look(Eigen::Vector3d(distance * std::cos(angle), distance * std::sin(angle), pole).normalized());
         }
     }
-    if (previous > 0) { EXPECT_LT(worst, previous / 3.5) << "resolution " << resolution; }
+    if (previous > 0) {
+      EXPECT_LT(worst, previous / 3.5) << "resolution " << resolution;
+    }
     previous = worst;
   }
   // Measured: 0.033, 0.0083, 0.0020.
@@ -92,7 +96,9 @@ TEST(Advect, AlongARotationHasALocalErrorOfThirdOrder) {
       EXPECT_LT((moved.rowwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
       // Measured: 0.065 of the step's cube.
       EXPECT_LT(worst, 0.1 * step * step * step);
-      if (previous > 0 && sign > 0) { EXPECT_LT(worst, previous / 7); }
+      if (previous > 0 && sign > 0) {
+        EXPECT_LT(worst, previous / 7);
+      }
       if (sign < 0) previous = worst;
     }
   }

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "engine/mesh/laplacian.h"
 #include "engine/sphere/orientation.h"
@@ -20,7 +21,8 @@ using test::icosphere;
 /// Area-weighted mean over the faces of the ratio of stretches, larger over smaller, less one: zero for a conformal map.
 double angle_distortion(const TriMesh& surface, const Points& sphere) {
   const auto frame = [](const Points& p, const Triangles& faces, Eigen::Index f) {
-    const Eigen::Vector3d u = (p.row(faces(f, 1)) - p.row(faces(f, 0))).transpose(), v = (p.row(faces(f, 2)) - p.row(faces(f, 0))).transpose();
+    const Eigen::Vector3d u = (p.row(faces(f, 1)) - p.row(faces(f, 0))).transpose(),
+                          v = (p.row(faces(f, 2)) - p.row(faces(f, 0))).transpose();
     const Eigen::Vector3d e = u.normalized(), n = e.cross(v).cross(e).normalized();
     Eigen::Matrix2d result;
     result << u.dot(e), v.dot(e), 0, v.dot(n);
@@ -41,7 +43,7 @@ void expect_parametrization(const TriMesh& mesh, const Points& sphere) {
   ASSERT_TRUE(sphere.allFinite());
   EXPECT_LT((sphere.rowwise().norm().array() - 1).abs().maxCoeff(), 1e-15);
   EXPECT_TRUE(flipped_faces(sphere, mesh.faces).empty());
-  EXPECT_NEAR(total_solid_angle(sphere, mesh.faces), 4 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(total_solid_angle(sphere, mesh.faces), 4 * std::numbers::pi, 1e-12);
 }
 
 TEST(ConformalParametrization, LeavesASphereWhereItIsUpToDiscretisation) {
@@ -52,7 +54,9 @@ TEST(ConformalParametrization, LeavesASphereWhereItIsUpToDiscretisation) {
     const Points sphere = conformal_parametrization(placed, {}, {});
     expect_parametrization(mesh, sphere);
     const double worst = (sphere - mesh.vertices).rowwise().norm().maxCoeff();
-    if (previous > 0) { EXPECT_LT(worst, previous / 3); }
+    if (previous > 0) {
+      EXPECT_LT(worst, previous / 3);
+    }
     previous = worst;
   }
   // Measured: 3.9e-5, 9.4e-6.
@@ -66,7 +70,9 @@ TEST(ConformalParametrization, OfAnEllipsoidDistortsAnglesLessTheFinerItIs) {
     const Points sphere = conformal_parametrization(mesh, {}, {});
     expect_parametrization(mesh, sphere);
     const double distortion = angle_distortion(mesh, sphere);
-    if (previous > 0) { EXPECT_LT(distortion, previous / 1.9); }
+    if (previous > 0) {
+      EXPECT_LT(distortion, previous / 1.9);
+    }
     previous = distortion;
   }
   // Measured: 0.111, 0.044, 0.021, where plain central projection has 0.103 at each level.
@@ -78,8 +84,8 @@ TEST(ConformalParametrization, DoesNotDependOnPlaceSizeAndTurn) {
   const Points reference = conformal_parametrization(mesh, {}, {});
   const Points other = conformal_parametrization(test::transformed(mesh, 1e-3, test::some_rotation(), {0.02, -0.01, 0.03}), {}, {});
   const double worst = (other - test::rotated(reference, test::some_rotation())).rowwise().norm().maxCoeff();
-  // Measured: 9e-14.
-  EXPECT_LT(worst, 1e-10);
+  // Measured: 1e-13.
+  EXPECT_LT(worst, 1e-11);
 }
 
 TEST(ConformalParametrization, OfLimbsHasNoFlippedFace) {
@@ -91,8 +97,14 @@ TEST(ConformalParametrization, OfLimbsHasNoFlippedFace) {
 }
 
 TEST(ConformalParametrization, OfANeedleHasNoFlippedFace) {
-  for (const TriMesh& mesh : {test::ellipsoid(3, {1, 1, 8}), test::ellipsoid(4, {1, 1, 12})})
-    expect_parametrization(mesh, conformal_parametrization(mesh, {}, {}));
+  for (const auto& [level, length] : {std::pair(3, 8.0), std::pair(4, 10.0), std::pair(4, 12.0)}) {
+    const TriMesh mesh = test::ellipsoid(level, {1, 1, length});
+    try {
+      expect_parametrization(mesh, conformal_parametrization(mesh, {}, {}));
+    } catch (const EngineError& error) {
+      ADD_FAILURE() << "level " << level << ", length " << length << ": " << error.what();
+    }
+  }
 }
 
 TEST(ConformalParametrization, StopsWhenAsked) {

@@ -24,7 +24,9 @@ Eigen::Vector3d to_double(const IntegerVector& v) {
   return Eigen::Vector3d(static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])) * 0x1p-40;
 }
 
-IntegerVector to_grid(const Eigen::Vector3d& v) { return {std::llround(v[0] * 0x1p40), std::llround(v[1] * 0x1p40), std::llround(v[2] * 0x1p40)}; }
+IntegerVector to_grid(const Eigen::Vector3d& v) {
+  return {std::llround(v[0] * 0x1p40), std::llround(v[1] * 0x1p40), std::llround(v[2] * 0x1p40)};
+}
 
 /// The determinant's sign; 6 * 2^120 fits into the 127 bits.
 int exact_sign(const IntegerVector& a, const IntegerVector& b, const IntegerVector& c) {
@@ -118,17 +120,17 @@ TEST(TotalSolidAngle, IsFourPiTimesTheDegree) {
   Random random(3);
   for (const TriMesh& mesh : {test::octahedron(), icosphere(0), icosphere(4)}) {
     const Points sphere = test::rotated(mesh.vertices, random.rotation()).rowwise().normalized();
-    // Measured: 2e-13 at 5120 faces.
-    EXPECT_NEAR(total_solid_angle(sphere, mesh.faces), 4 * pi, 1e-11);
+    // Measured: 2e-15.
+    EXPECT_NEAR(total_solid_angle(sphere, mesh.faces), 4 * pi, 1e-13);
     const TriMesh inside_out = test::turned_inside_out(mesh);
-    EXPECT_NEAR(total_solid_angle(inside_out.vertices, inside_out.faces), -4 * pi, 1e-11);
+    EXPECT_NEAR(total_solid_angle(inside_out.vertices, inside_out.faces), -4 * pi, 1e-13);
   }
   // Flips fold the sphere over itself but do not change how often it is covered.
   const TriMesh mesh = icosphere(3);
   Points folded = mesh.vertices;
   for (Eigen::Index v = 0; v < folded.rows(); ++v) folded.row(v) = (folded.row(v) + 0.15 * random.unit_vector().transpose()).normalized();
   EXPECT_GT(flipped_faces(folded, mesh.faces).size(), 20U);
-  EXPECT_NEAR(total_solid_angle(folded, mesh.faces), 4 * pi, 1e-11);
+  EXPECT_NEAR(total_solid_angle(folded, mesh.faces), 4 * pi, 1e-12);
 }
 
 TEST(MeasureSphere, KnowsTheDistortionOfAStretchedBipyramid) {
@@ -142,8 +144,8 @@ TEST(MeasureSphere, KnowsTheDistortionOfAStretchedBipyramid) {
     const SphereQuality quality = measure_sphere(sphere, test::transformed(surface, scale, test::some_rotation(), {1, 2, 3}));
     EXPECT_EQ(quality.flipped, 0);
     EXPECT_LT(quality.solid_angle_defect, 1e-13);
-    // A shift by 1e8 edge lengths costs eight digits of the areas.
-    EXPECT_NEAR(quality.area_distortion, expected, scale < 1 ? 1e-6 : 1e-12);
+    // A shift by 1e8 edge lengths costs eight digits. Measured: 8e-10.
+    EXPECT_NEAR(quality.area_distortion, expected, scale < 1 ? 1e-8 : 1e-13);
   }
   EXPECT_GT(expected, 0.3);
 
@@ -151,7 +153,7 @@ TEST(MeasureSphere, KnowsTheDistortionOfAStretchedBipyramid) {
   EXPECT_LT(measure_sphere(mesh.vertices, mesh).area_distortion, 1e-12);
   const TriMesh inside_out = test::turned_inside_out(mesh);
   EXPECT_EQ(measure_sphere(inside_out.vertices, inside_out).flipped, 1280);
-  EXPECT_NEAR(measure_sphere(inside_out.vertices, inside_out).solid_angle_defect, 8 * pi, 1e-10);
+  EXPECT_NEAR(measure_sphere(inside_out.vertices, inside_out).solid_angle_defect, 8 * pi, 1e-12);
 }
 
 }  // namespace
