@@ -18,7 +18,8 @@ struct IntrinsicMesh {
 /// hold with a margin of `margin` mean edge lengths.
 [[nodiscard]] IntrinsicMesh intrinsic_mesh(const TriMesh& mesh, double margin = 1e-5);
 
-/// Flips edges until every one is locally Delaunay. `mesh` must be closed and manifold. Deterministic.
+/// Flips edges until every one is locally Delaunay, but for edges whose flip would join a vertex to itself. `mesh` must be closed and
+/// manifold. Deterministic.
 void make_delaunay(IntrinsicMesh& mesh);
 
 /// Areas of the faces from their lengths, (F).

@@ -20,9 +20,9 @@ bool is_flipped(const Points& sphere, const Triangles& faces, Eigen::Index f) {
 }  // namespace
 
 int orientation(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  // For coordinates up to one the rounding error of this expression stays below 2e-15.
+  // For vectors no longer than 1.5 the rounding error of this expression stays below 1e-14.
   const double det = a.dot(b.cross(c));
-  if (std::abs(det) > 4e-15) return det > 0 ? 1 : -1;
+  if (std::abs(det) > 1e-14) return det > 0 ? 1 : -1;
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   const Kernel::Vector_3 u(a[0], a[1], a[2]), v(b[0], b[1], b[2]), w(c[0], c[1], c[2]);
   return static_cast<int>(CGAL::orientation(u, v, w));

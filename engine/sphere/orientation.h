@@ -10,7 +10,8 @@
 
 namespace spherematch {
 
-/// Sign of det(a, b, c): +1 when the triangle is counter-clockwise seen from outside, 0 when it is degenerate. Exact.
+/// Sign of det(a, b, c): +1 when the triangle is counter-clockwise seen from outside, 0 when it is degenerate.
+/// Exact for vectors no longer than one and a half.
 [[nodiscard]] int orientation(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
 /// Faces whose orientation is not positive, ascending.
