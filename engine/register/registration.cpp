@@ -14,7 +14,6 @@
 #include "engine/sphere/flip_repair.h"
 #include "engine/sphere/harmonics.h"
 #include "engine/sphere/orientation.h"
-#include "engine/sphere/rasterizer.h"
 
 namespace spherematch {
 namespace {
