@@ -20,6 +20,8 @@ constexpr auto table = std::to_array<ErrorEntry>({
     {Code::content_encoding, "content-encoding", 415, "Encoded bodies are not accepted", false},
     {Code::malformed_mesh, "malformed-mesh", 400, "The mesh file is malformed", false},
     {Code::unsupported_format, "unsupported-format", 415, "The mesh file is of no supported format", false},
+    {Code::compressed_geometry, "compressed-geometry", 415, "The geometry is compressed", false},
+    {Code::external_reference, "external-reference", 422, "The mesh is partly in another file", false},
     {Code::too_many_vertices, "too-many-vertices", 422, "The mesh has too many vertices", false},
     {Code::degenerate, "degenerate", 422, "The mesh is degenerate", false},
     {Code::non_manifold, "non-manifold", 422, "The mesh is not manifold", false},

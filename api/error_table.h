@@ -23,6 +23,8 @@ enum class Code {
   // the mesh
   malformed_mesh,
   unsupported_format,
+  compressed_geometry,
+  external_reference,
   too_many_vertices,
   degenerate,
   non_manifold,

@@ -13,15 +13,16 @@ class App;
 
 namespace spherematch {
 
-/// Flags that both subcommands have.
+/// Of "fill" or "none".
+[[nodiscard]] inline RepairMode repair_mode(const std::string& name) { return name == "none" ? RepairMode::none : RepairMode::fill; }
+
+/// Flags of the subcommands that use the store.
 struct CommonOptions {
   std::string store = "data/spherematch.db";
   std::string repair = "fill";
   int threads = 0;  ///< 0 until add_common_options(): then the number of cores
 
-  [[nodiscard]] PreparationOptions preparation() const {
-    return {.repair = repair == "none" ? RepairMode::none : RepairMode::fill, .threads = threads};
-  }
+  [[nodiscard]] PreparationOptions preparation() const { return {.repair = repair_mode(repair), .threads = threads}; }
 };
 
 struct PrepareOptions : CommonOptions {
@@ -35,14 +36,25 @@ struct MatchOptions : CommonOptions {
   std::string method = "default";
 };
 
+struct EvaluateOptions {
+  std::string source;
+  std::string target;
+  std::string map;
+  std::vector<std::string> landmarks;  ///< two files, or none: the identity is the truth
+  std::string mirrored;                ///< empty: not asked for
+  std::string repair = "fill";
+};
+
 void add_prepare_options(CLI::App& command, PrepareOptions& options);
 void add_match_options(CLI::App& command, MatchOptions& options);
+void add_evaluate_options(CLI::App& command, EvaluateOptions& options);
 
 /// Returns an ExitCode. A mesh that fails does not keep the others from being prepared.
 int run_prepare(const PrepareOptions& options);
 int run_match(const MatchOptions& options);
+int run_evaluate(const EvaluateOptions& options);
 
-// For both (main.cpp).
+// For all (main.cpp).
 
 void add_common_options(CLI::App& command, CommonOptions& options);
 /// Prints what went wrong to standard error, after `subject` and a colon where it is not empty, and returns the ExitCode.

@@ -36,14 +36,18 @@ int run(int argc, const char* const* argv) {
   MatchOptions match_options;
   CLI::App& match = *app.add_subcommand("match", "Map the vertices of one mesh to another");
   add_match_options(match, match_options);
-  for (CLI::App* command : {&prepare, &match}) command->footer(footer);
+  EvaluateOptions evaluate_options;
+  CLI::App& evaluate = *app.add_subcommand("evaluate", "Measure a map against ground truth, along the target's surface");
+  add_evaluate_options(evaluate, evaluate_options);
+  for (CLI::App* command : {&prepare, &match, &evaluate}) command->footer(footer);
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_success : exit_usage;
   }
-  return prepare.parsed() ? run_prepare(prepare_options) : run_match(match_options);
+  if (prepare.parsed()) return run_prepare(prepare_options);
+  return match.parsed() ? run_match(match_options) : run_evaluate(evaluate_options);
 }
 
 }  // namespace

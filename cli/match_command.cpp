@@ -1,23 +1,17 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
-#include <iostream>
+#include <utility>
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/files.h"
 #include "cli/output_format.h"
 #include "engine/engine.h"
+#include "engine/io/mesh_reader.h"
 
 namespace spherematch {
 
 namespace {
-
-void write_file(const std::filesystem::path& file, const std::string& bytes) {
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) throw FileError(file.string() + ": cannot be written");
-}
 
 Preparation prepare_side(ShapeStore& store, const std::string& mesh, const MatchOptions& options) {
   Preparation preparation = prepare_file(store, mesh, options.preparation());
@@ -38,12 +32,20 @@ void print_result(const MatchResult& result) {
   for (const auto& [name, value] : result.quality) std::printf("  quality: %s %.5g\n", name.c_str(), value);
 }
 
+void write_map(const ShapeStore& store, const MatchOptions& options, const Correspondence& map, const Preparation& source,
+               const Preparation& target) {
+  const MapFormat format = output_format_of(options.output).value();
+  PolygonMesh source_mesh;
+  if (needs_source_mesh(format)) source_mesh = read_mesh(store.load_upload(source.id), options.source, ReadLimits::none());
+  write_file(options.output, encode_map(format, map, source.shape->surface, target.shape->surface, std::move(source_mesh)));
+}
+
 }  // namespace
 
 void add_match_options(CLI::App& command, MatchOptions& options) {
   command.add_option("SRC", options.source, "Source mesh: the map has one entry for each of its vertices")->required();
   command.add_option("TGT", options.target, "Target mesh")->required();
-  command.add_option("-o,--output", options.output, "Where to write the map: " + supported_extensions())
+  command.add_option("-o,--output", options.output, "Where to write the map or its picture: " + supported_extensions())
       ->check([](const std::string& file) {
         return output_format_of(file) ? std::string()
                                       : "'" + file + "' has no supported extension; supported are " + supported_extensions();
@@ -66,7 +68,7 @@ int run_match(const MatchOptions& options) {
     const MatchResult result = match(*source.shape, *target.shape, parameters, {}, options.threads);
     print_result(result);
     if (!options.output.empty()) {
-      write_file(options.output, encode(result.map, output_format_of(options.output).value()));
+      write_map(store, options, result.map, source, target);
       std::printf("wrote %s\n", options.output.c_str());
     }
     return exit_success;

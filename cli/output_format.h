@@ -5,18 +5,14 @@
 #include <optional>
 #include <string>
 
-#include "engine/data/correspondence.h"
+#include "engine/io/map_format.h"
 
 namespace spherematch {
 
-enum class OutputFormat { npz, npy, text };
-
 /// Nothing where the extension is of no format. Case does not matter.
-[[nodiscard]] std::optional<OutputFormat> output_format_of(const std::filesystem::path& file);
+[[nodiscard]] std::optional<MapFormat> output_format_of(const std::filesystem::path& file);
 
-/// ".npz, .npy, .txt"
+/// ".npz, .npy, .txt, ..."
 [[nodiscard]] std::string supported_extensions();
-
-[[nodiscard]] std::string encode(const Correspondence& map, OutputFormat format);
 
 }  // namespace spherematch

@@ -2,13 +2,10 @@
 
 #include <unistd.h>
 
-#include <cerrno>
-#include <fstream>
 #include <iostream>
-#include <system_error>
 #include <vector>
 
-#include "cli/exit_code.h"
+#include "cli/files.h"
 #include "cli/progress_bar.h"
 #include "engine/engine.h"
 #include "storage/content_id.h"
@@ -17,18 +14,6 @@
 namespace spherematch {
 
 namespace {
-
-std::vector<std::byte> read_file(const std::filesystem::path& file) {
-  // Opening a directory succeeds and reading it fails late, with a message that helps nobody.
-  if (std::filesystem::is_directory(file)) throw FileError(file.string() + ": is a directory");
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  if (!in) throw FileError(file.string() + ": " + std::generic_category().message(errno));
-  std::vector<std::byte> bytes(static_cast<std::size_t>(in.tellg()));
-  in.seekg(0);
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!in) throw FileError(file.string() + ": cannot be read");
-  return bytes;
-}
 
 /// What the store has, if it is of this engine and readable.
 std::shared_ptr<const PreprocessedShape> stored_shape(const ShapeStore& store, const ShapeRecord& record) {

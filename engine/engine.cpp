@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/data/parallel.h"
+#include "engine/evaluate/map_error.h"
 #include "engine/io/mesh_reader.h"
 #include "engine/mesh/intrinsic_delaunay.h"
 #include "engine/mesh/laplacian.h"
@@ -91,7 +92,7 @@ SphereBranch parametrize(const TriMesh& mesh, const PreprocessParameters& parame
 
 }  // namespace
 
-std::string_view engine_version() { return "1"; }
+std::string_view engine_version() { return "2"; }
 
 Surface read_surface(std::span<const std::byte> bytes, std::string_view name, RepairMode mode, const ReadLimits& limits) {
   return repair(read_mesh(bytes, name, limits), mode);
@@ -113,7 +114,10 @@ PreprocessedShape preprocess(Surface surface, const PreprocessParameters& parame
       const auto began = Clock::now();
       IntrinsicMesh intrinsic = intrinsic_mesh(mesh);
       make_delaunay(intrinsic);
-      basis = compute_eigenbasis(intrinsic, mesh.vertices.rows(), parameters.eigenpairs, progress);
+      const Laplacian laplacian = cotangent_laplacian(intrinsic, mesh.vertices.rows());
+      basis = parameters.single_vector_lanczos ? compute_eigenbasis_by_single_vectors(laplacian, parameters.eigenpairs, progress)
+                                               : compute_eigenbasis(laplacian, parameters.eigenpairs, progress,
+                                                                    [&joint](double fraction) { joint.update(1, "eigenbasis", fraction); });
       eigenbasis_seconds = seconds_since(began);
       joint.update(1, "eigenbasis", 1);
     }
@@ -142,6 +146,10 @@ MatchResult match(const PreprocessedShape& source, const PreprocessedShape& targ
                   const Progress& progress, int threads) {
   parameters.validate();
   return register_pair(source, target, parameters, progress, threads);
+}
+
+MapError evaluate(const Correspondence& map, const Surface& target, std::span<const Landmark> truth) {
+  return geodesic_error(map, target, truth);
 }
 
 }  // namespace spherematch

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "engine/data/correspondence.h"
+#include "engine/data/evaluation.h"
 #include "engine/data/parameters.h"
 #include "engine/data/preprocessed_shape.h"
 #include "engine/data/progress.h"
@@ -33,5 +34,9 @@ namespace spherematch {
 /// @throws EngineError(cancelled, invalid_parameter)
 [[nodiscard]] MatchResult match(const PreprocessedShape& source, const PreprocessedShape& target, const MatchParameters& parameters = {},
                                 const Progress& progress = {}, int threads = 2);
+
+/// The error of a map against ground truth (engine/evaluate/map_error.h).
+/// @throws EngineError(invalid_parameter)
+[[nodiscard]] MapError evaluate(const Correspondence& map, const Surface& target, std::span<const Landmark> truth);
 
 }  // namespace spherematch

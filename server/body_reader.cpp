@@ -1,6 +1,8 @@
 #include "server/body_reader.h"
 
 #include <charconv>
+#include <optional>
+#include <utility>
 
 namespace spherematch {
 
@@ -14,15 +16,40 @@ std::optional<std::size_t> declared_length(const httplib::Request& request) {
   return length;
 }
 
-void read_raw(const httplib::ContentReader& reader, Upload& upload) {
-  const bool complete = reader([&upload](const char* data, size_t size) {
-    upload.bytes.append(data, size);
-    return true;
-  });
-  if (!complete) throw ProblemError(api::Code::bad_request, "the body ended before its Content-Length");
+/// What stays with an upload while its bytes live.
+struct Permit {
+  explicit Permit(ByteBudget& memory) : share(memory) {}
+  ByteBudget::Share share;
+  std::optional<Gate::Permit> reading;
+};
+
+/// Takes bytes as long as there is room for them.
+class Collector {
+ public:
+  Collector(std::string& bytes, ByteBudget::Share& share) : bytes_(bytes), share_(share) {}
+
+  bool take(const char* data, std::size_t size) {
+    has_room_ = share_.grow(size);
+    if (has_room_) bytes_.append(data, size);
+    return has_room_;
+  }
+  void require_room() const {
+    if (!has_room_) throw ProblemError(api::Code::overloaded, "too many uploads at once; try again");
+  }
+
+ private:
+  std::string& bytes_;
+  ByteBudget::Share& share_;
+  bool has_room_ = true;
+};
+
+void read_raw(const httplib::ContentReader& reader, Collector& collector) {
+  const bool complete = reader([&collector](const char* data, size_t size) { return collector.take(data, size); });
+  collector.require_room();
+  if (!complete) throw ProblemError(api::Code::bad_request, "the body ended, or stopped coming, before its Content-Length");
 }
 
-void read_multipart(const httplib::ContentReader& reader, Upload& upload) {
+void read_multipart(const httplib::ContentReader& reader, Upload& upload, Collector& collector) {
   int files = 0;
   std::string refusal;
   const bool complete = reader(
@@ -35,10 +62,8 @@ void read_multipart(const httplib::ContentReader& reader, Upload& upload) {
         upload.file_name = part.filename;
         return refusal.empty();
       },
-      [&upload](const char* data, size_t size) {
-        upload.bytes.append(data, size);
-        return true;
-      });
+      [&collector](const char* data, size_t size) { return collector.take(data, size); });
+  collector.require_room();
   if (!refusal.empty()) throw ProblemError(api::Code::invalid_parameter, refusal);
   if (!complete) throw ProblemError(api::Code::bad_request, "the multipart body is malformed or ended early");
   if (files == 0) throw ProblemError(api::Code::invalid_parameter, "file: the multipart body has no such field");
@@ -74,16 +99,22 @@ std::optional<ProblemError> refuse_body(const httplib::Request& request, std::si
   return std::nullopt;
 }
 
-Upload read_upload(const httplib::Request& request, const httplib::ContentReader& reader, Gate& uploads) {
+Upload read_upload(const httplib::Request& request, const httplib::ContentReader& reader, const UploadBounds& bounds) {
+  auto permit = std::make_shared<Permit>(bounds.memory);
   Upload upload;
-  upload.permit = std::make_shared<Gate::Permit>(uploads.enter());
-  if (request.is_multipart_form_data()) {
-    read_multipart(reader, upload);
-  } else {
+  {
+    const Gate::Permit receiving = bounds.receiving.enter();
     // Reserved memory is not touched before bytes arrive, so a false promise costs nothing.
     upload.bytes.reserve(declared_length(request).value_or(0));
-    read_raw(reader, upload);
+    Collector collector(upload.bytes, permit->share);
+    if (request.is_multipart_form_data()) {
+      read_multipart(reader, upload, collector);
+    } else {
+      read_raw(reader, collector);
+    }
   }
+  permit->reading.emplace(bounds.reading.enter());
+  upload.permit = std::move(permit);
   return upload;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -11,8 +12,16 @@
 #include "engine/data/preprocessed_shape.h"
 #include "engine/data/progress.h"
 #include "engine/data/surface.h"
+#include "engine/io/polygon_mesh.h"
 
 namespace spherematch {
+
+/// A preparation ended without a result and without a reason that lies in the shape for certain: its process crashed, was killed or
+/// ran out of memory. what() says how.
+class PreparationLost : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// Implementations are thread-safe. The functions and their errors are those of engine/engine.h.
 class EnginePort {
@@ -21,6 +30,9 @@ class EnginePort {
   [[nodiscard]] virtual std::string version() const = 0;
   [[nodiscard]] virtual Surface read_surface(std::span<const std::byte> bytes, std::string_view name, RepairMode repair,
                                              const ReadLimits& limits) const = 0;
+  /// An upload that read_surface() accepted, as its file has it (engine/io/mesh_reader.h).
+  [[nodiscard]] virtual PolygonMesh read_mesh(std::span<const std::byte> bytes, std::string_view name) const = 0;
+  /// @throws PreparationLost as well
   [[nodiscard]] virtual PreprocessedShape preprocess(Surface surface, const Progress& progress) const = 0;
   [[nodiscard]] virtual MatchResult match(const PreprocessedShape& source, const PreprocessedShape& target,
                                           const MatchParameters& parameters, const Progress& progress) const = 0;

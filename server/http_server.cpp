@@ -4,9 +4,10 @@
 //   neither counts chunks nor what it decompresses;
 // - routing before its own, which answers 404 to a wrong method and matches paths with recursive regular expressions;
 // - Range is ignored: it would send 206 and a part under a tag of the whole;
-// - a longer listen backlog, a bounded queue of connections, no shared listening port;
+// - connections wait for their heads without a thread (server/connection_lobby.h), and then in a bounded queue for a thread;
+// - a longer listen backlog, no shared listening port;
 // - a stop that comes before the library runs is not lost;
-// - deadlines on whole requests, a limit on all headers together, and input drained before a refused connection closes
+// - least rates of requests and responses, a limit on all headers together, and input drained before a refused connection closes
 // (server/socket_stream.h).
 #include "server/http_server.h"
 
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <thread>
@@ -40,6 +42,13 @@ std::string random_id() {
   for (int i = 0; i < 4; ++i) id += fmt::format("{:08x}", device());
   return id;
 }
+
+/// Runs what the library would give to its threads on the spot: it is only a walk to the lobby.
+class Immediately final : public httplib::TaskQueue {
+ public:
+  void enqueue(std::function<void()> task) override { task(); }
+  void shutdown() override {}
+};
 
 /// A client's request id is taken over when it is fit to be written into headers and logs.
 std::string request_id_of(const httplib::Request& request) {
@@ -104,8 +113,9 @@ class HttpServer::Library final : public httplib::Server {
   };
 
   bool process_and_close_socket(socket_t socket) override;
-  void serve(SocketStream& stream);
-  static void shed(SocketStream& stream);
+  void take_in(int socket, ConnectionLobby::Arrival arrival);
+  void serve(int socket);
+  static void turn_away(int socket, const ProblemError& reason);
   static void prepare(httplib::Request& request, Exchange& exchange);
   void log(const Exchange& exchange, int status, double milliseconds) const;
   void install_handlers();
@@ -113,19 +123,27 @@ class HttpServer::Library final : public httplib::Server {
   [[nodiscard]] bool awaits_body(const httplib::Request& request) const;
 
   const Router& router_;
-  Gate& uploads_;
   const HttpServerSettings settings_;
+  Gate receiving_;
+  ByteBudget upload_memory_;
+  const UploadBounds bounds_;
   const std::vector<std::string> upload_paths_;
   std::mutex run_mutex_;
   bool entered_ = false;  ///< run() has decided to serve
   std::atomic<bool> finished_ = false;
   std::atomic<bool> stopping_ = false;
-  std::thread::id accepting_thread_;
+  std::optional<BoundedTaskQueue> threads_;  ///< while it runs
+  std::optional<ConnectionLobby> lobby_;     ///< while it runs
 };
 
 HttpServer::Library::Library(const Router& router, Gate& uploads, const HttpServerSettings& settings)
-    : router_(router), uploads_(uploads), settings_(settings), upload_paths_(router.upload_patterns()) {
-  new_task_queue = [this] { return new BoundedTaskQueue(settings_.threads, settings_.max_connections); };
+    : router_(router),
+      settings_(settings),
+      receiving_("uploads", settings.receiving_uploads, 0),
+      upload_memory_(settings.upload_memory),
+      bounds_{receiving_, upload_memory_, uploads},
+      upload_paths_(router.upload_patterns()) {
+  new_task_queue = [] { return new Immediately; };
   set_tcp_nodelay(true);
   set_socket_options([](socket_t socket) {
     // The library's own choice, SO_REUSEPORT, would let two servers share a port unnoticed.
@@ -140,7 +158,7 @@ void HttpServer::Library::install_handlers() {
   for (const std::string& path : upload_paths_) {
     Post(path, [this](const httplib::Request& from, httplib::Response& to, const httplib::ContentReader& reader) {
       HttpRequest request = request_of(from);
-      write_to(to, router_.handle(request, [&](HttpRequest& r) { r.upload = read_upload(from, reader, uploads_); }));
+      write_to(to, router_.handle(request, [&](HttpRequest& r) { r.upload = read_upload(from, reader, bounds_); }));
     });
   }
   set_expect_100_continue_handler([this](const httplib::Request& request, httplib::Response& response) {
@@ -194,13 +212,16 @@ int HttpServer::Library::bind(const std::string& host, int port) {
 }
 
 void HttpServer::Library::run() {
-  accepting_thread_ = std::this_thread::get_id();
   {
     const std::lock_guard lock(run_mutex_);
     if (stopping_) return;
     entered_ = true;
   }
+  threads_.emplace(settings_.threads, settings_.max_connections);
+  lobby_.emplace(settings_.lobby, [this](int socket, ConnectionLobby::Arrival arrival) { take_in(socket, arrival); });
   listen_after_bind();
+  lobby_.reset();
+  threads_.reset();
   finished_ = true;
 }
 
@@ -215,30 +236,37 @@ void HttpServer::Library::stop_all() {
   stop();
 }
 
+/// On the accepting thread.
 bool HttpServer::Library::process_and_close_socket(socket_t socket) {
-  SocketStream stream(socket, {}, stopping_);
-  if (std::this_thread::get_id() == accepting_thread_) {
-    shed(stream);
-  } else {
-    serve(stream);
-  }
-  ::shutdown(socket, SHUT_RDWR);
-  ::close(socket);
+  lobby_->admit(socket);
   return true;
 }
 
-void HttpServer::Library::serve(SocketStream& stream) {
+/// On the lobby's thread.
+void HttpServer::Library::take_in(int socket, ConnectionLobby::Arrival arrival) {
+  if (arrival == ConnectionLobby::Arrival::late) {
+    turn_away(socket, {api::Code::bad_request, "the request's head did not arrive in time"});
+  } else if (!threads_->enqueue([this, socket] { serve(socket); })) {
+    turn_away(socket, {api::Code::overloaded, "too many connections at once; try again"});
+  }
+}
+
+void HttpServer::Library::serve(int socket) {
   const auto started = std::chrono::steady_clock::now();
+  SocketStream stream(socket, {}, stopping_);
   Exchange exchange;
   bool closed = false;
   process_request(stream, /*close_connection=*/true, closed, [&](httplib::Request& request) {
     stream.end_of_head();
     prepare(request, exchange);
   });
-  if (stream.written_status() == 0) return;  // the peer went away without a request
-  const auto took = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started);
-  log(exchange, stream.written_status(), took.count());
-  if (exchange.has_body && stream.written_status() >= 400) stream.drain();
+  if (stream.written_status() != 0) {  // else the peer went away without a request
+    const auto took = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started);
+    log(exchange, stream.written_status(), took.count());
+    if (exchange.has_body && stream.written_status() >= 400) stream.drain();
+  }
+  ::shutdown(socket, SHUT_RDWR);
+  ::close(socket);
 }
 
 void HttpServer::Library::prepare(httplib::Request& request, Exchange& exchange) {
@@ -251,18 +279,22 @@ void HttpServer::Library::prepare(httplib::Request& request, Exchange& exchange)
   exchange.has_body = request.has_header("Content-Length") || request.has_header("Transfer-Encoding");
 }
 
-/// On the accepting thread, so it must not wait for the peer: the request is not read.
-void HttpServer::Library::shed(SocketStream& stream) {
-  const HttpResponse problem = problem_response({api::Code::overloaded, "too many connections at once; try again"}, random_id());
-  std::string text = "HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\nContent-Type: " + problem.content_type +
-                     "\r\nContent-Length: " + std::to_string(problem.body.size());
+/// On the lobby's thread, so it must not wait for the peer: the request is not read.
+void HttpServer::Library::turn_away(int socket, const ProblemError& reason) {
+  const std::string id = random_id();
+  const HttpResponse problem = problem_response(reason, id);
+  const api::ErrorEntry& entry = api::entry_of(reason.problem().code);
+  std::string text = fmt::format("HTTP/1.1 {} {}\r\nConnection: close\r\n{}: {}\r\nContent-Type: {}\r\nContent-Length: {}", entry.status,
+                                 entry.title, id_header, id, problem.content_type, problem.body.size());
   for (const auto& [name, value] : problem.headers) text.append("\r\n").append(name).append(": ").append(value);
   text.append("\r\n\r\n").append(problem.body);
-  ::send(stream.socket(), text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  ::send(socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
   // Taking what has arrived makes a reset, which could overtake the response, unlikely.
   std::array<char, 8192> scrap{};
-  ::recv(stream.socket(), scrap.data(), scrap.size(), MSG_DONTWAIT);
-  spdlog::warn("event=connection_shed");
+  ::recv(socket, scrap.data(), scrap.size(), MSG_DONTWAIT);
+  ::shutdown(socket, SHUT_RDWR);
+  ::close(socket);
+  spdlog::warn("event=connection_turned_away code={}", entry.wire);
 }
 
 void HttpServer::Library::log(const Exchange& exchange, int status, double milliseconds) const {

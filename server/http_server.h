@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "server/byte_budget.h"
+#include "server/connection_lobby.h"
 #include "server/gate.h"
 #include "server/router.h"
 
@@ -12,13 +14,17 @@ namespace spherematch {
 
 struct HttpServerSettings {
   std::size_t max_body_bytes = std::size_t{64} << 20;
-  std::size_t threads = 32;           ///< connections served at once
-  std::size_t max_connections = 256;  ///< connections that wait for a thread; further ones get 503
+  std::size_t threads = 32;                            ///< connections served at once
+  std::size_t max_connections = 256;                   ///< connections whose request waits for a thread; further ones get 503
+  std::size_t receiving_uploads = 24;                  ///< bodies on their way at once; further ones get 503
+  std::size_t upload_memory = std::size_t{256} << 20;  ///< bytes of all bodies together; who would pass it gets 503
+  LobbyLimits lobby{};
 };
 
 class HttpServer {
  public:
   /// Router and gate must outlive this.
+  /// `uploads` bounds the requests with a body that are worked on, once the body is there.
   HttpServer(const Router& router, Gate& uploads, const HttpServerSettings& settings);
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;

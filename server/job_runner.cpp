@@ -86,12 +86,11 @@ void JobRunner::work_loop() {
       job->status.running = true;
       running_.push_back(job);
     }
-    run(job);
-    finish(job);
+    finish(job, run(job));
   }
 }
 
-void JobRunner::run(const JobPointer& job) {
+JobRunner::Outcome JobRunner::run(const JobPointer& job) {
   const Progress progress{.report =
                               [this, job](std::string_view stage, double fraction) {
                                 const std::lock_guard lock(mutex_);
@@ -100,17 +99,23 @@ void JobRunner::run(const JobPointer& job) {
                                 if (fraction > job->status.progress) job->status.progress = std::min(fraction, 1.0);
                               },
                           .stop = job->stop.get_token()};
-  work_(job->key, progress);
+  return work_(job->key, progress);
 }
 
-void JobRunner::finish(const JobPointer& job) {
+void JobRunner::finish(const JobPointer& job, Outcome outcome) {
   {
     const std::lock_guard lock(mutex_);
     std::erase(running_, job);
     // After cancel() the key may already stand for a newer job.
     const auto found = active_.find(job->key);
-    if (found != active_.end() && found->second == job) active_.erase(found);
+    const bool active = found != active_.end() && found->second == job;
+    if (active && outcome == Outcome::again && !stopping_) {
+      queue_.push_back(job);
+    } else if (active) {
+      active_.erase(found);
+    }
   }
+  queued_.notify_one();
   finished_.notify_all();
 }
 

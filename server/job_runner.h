@@ -20,7 +20,7 @@
 namespace spherematch {
 
 struct JobStatus {
-  bool running = false;  ///< false while queued
+  bool running = false;  ///< false until it is started for the first time
   std::string stage;
   double progress = 0;  ///< in [0, 1]; never falls
 };
@@ -28,8 +28,10 @@ struct JobStatus {
 /// Thread-safe. Of one key at most one job is active (queued or running) at a time.
 class JobRunner {
  public:
-  /// Does the job. Must not throw. A job that was cancelled should return soon after `progress.stop` is requested.
-  using Work = std::function<void(const std::string& key, const Progress& progress)>;
+  enum class Outcome { done, again };
+  /// Does the job. Must not throw. A job that was cancelled should return soon after `progress.stop` is requested. With `again`
+  /// the same job is put at the end of the queue; meanwhile it counts as running to those who ask for its status.
+  using Work = std::function<Outcome(const std::string& key, const Progress& progress)>;
   using Clock = std::chrono::steady_clock;
 
   JobRunner(Work work, std::size_t workers, std::size_t max_queued);
@@ -70,8 +72,8 @@ class JobRunner {
   using JobPointer = std::shared_ptr<Job>;
 
   void work_loop();
-  void run(const JobPointer& job);
-  void finish(const JobPointer& job);
+  Outcome run(const JobPointer& job);
+  void finish(const JobPointer& job, Outcome outcome);
 
   const Work work_;
   const std::size_t max_queued_;

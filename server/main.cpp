@@ -1,16 +1,22 @@
 // The server: options, store, engine, routes, signals.
+#include <malloc.h>
 #include <pthread.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
+#include <string_view>
 #include <thread>
 
 #include "server/http_server.h"
 #include "server/options.h"
+#include "server/preparation_process.h"
 #include "server/real_engine.h"
 #include "server/server_context.h"
 #include "server/shape_service.h"
@@ -37,13 +43,33 @@ ShapeServiceSettings shape_settings(const ServerOptions& options) {
           .read_limits = {.max_vertices = options.max_vertices}};
 }
 
-constexpr std::size_t waiting_uploads = 8;
+constexpr std::size_t waiting_uploads = 16;
 
-/// One thread for everybody who may legitimately wait or compute, and a dozen more, so that short requests always find one.
+/// One thread for everybody who may legitimately wait, send or compute, and a dozen more, so that short requests always find one.
 HttpServerSettings http_settings(const ServerOptions& options) {
+  HttpServerSettings settings;
   const int heavy = options.concurrent_matches + options.waiting_matches + options.concurrent_uploads;
-  return {.max_body_bytes = options.max_body_bytes(),
-          .threads = static_cast<std::size_t>(heavy) + ShapeServiceSettings{}.max_long_polls + waiting_uploads + 12};
+  settings.threads =
+      static_cast<std::size_t>(heavy) + ShapeServiceSettings{}.max_long_polls + settings.receiving_uploads + waiting_uploads + 12;
+  settings.max_body_bytes = options.max_body_bytes();
+  settings.upload_memory = static_cast<std::size_t>(options.concurrent_uploads) * options.max_body_bytes();
+  return settings;
+}
+
+/// What a large upload took goes back to the system with its end. Left alone, the allocator keeps it: after some hundred uploads on
+/// as many threads several hundred megabytes.
+void return_memory_early() {
+  ::mallopt(M_MMAP_THRESHOLD, 4 << 20);  // also ends its growing with what is freed
+  ::mallopt(M_TRIM_THRESHOLD, 16 << 20);
+  ::mallopt(M_ARENA_MAX, 4);
+}
+
+/// A connection takes a descriptor, and the usual 1024 are fewer than the lobby, the queue and the threads hold together.
+void raise_descriptor_limit() {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = std::max(limit.rlim_cur, std::min<rlim_t>(limit.rlim_max, 8192));
+  ::setrlimit(RLIMIT_NOFILE, &limit);
 }
 
 /// Blocks the signals in this thread and all that it starts; they are then taken by sigwait().
@@ -68,6 +94,8 @@ void end_after_deadline(const std::stop_token& stopped_in_time) {
 }
 
 int serve(const ServerOptions& options) {
+  return_memory_early();
+  raise_descriptor_limit();
   const sigset_t signals = block_stop_signals();
   ShapeStore store(options.store);
   const RealEngine engine(options.threads);
@@ -108,6 +136,9 @@ int serve(const ServerOptions& options) {
 }  // namespace spherematch
 
 int main(int argc, char** argv) {
+  if (argc == 3 && argv[1] == std::string_view(spherematch::preparation_argument)) {
+    return spherematch::prepare_for_server(STDIN_FILENO, std::max(1, std::atoi(argv[2])));
+  }
   const auto [options, exit_code] = spherematch::parse_options(argc, argv, SPHEREMATCH_VERSION);
   if (exit_code) return *exit_code;
   try {

@@ -7,7 +7,8 @@ namespace spherematch {
 
 api::Json to_json(const PreprocessParameters& parameters) {
   const auto& [conformal_steps, conformal_step_size, collapse_passes, collapse_steps, collapse_threshold, authalic_resolution,
-               authalic_steps, authalic_step_size, authalic_smoothing, eigenpairs, hks_times, signal_resolution] = parameters;
+               authalic_steps, authalic_step_size, authalic_smoothing, eigenpairs, single_vector_lanczos, hks_times, signal_resolution] =
+      parameters;
   return {{"conformal_steps", conformal_steps},
           {"conformal_step_size", conformal_step_size},
           {"collapse_passes", collapse_passes},
@@ -18,6 +19,7 @@ api::Json to_json(const PreprocessParameters& parameters) {
           {"authalic_step_size", authalic_step_size},
           {"authalic_smoothing", authalic_smoothing},
           {"eigenpairs", eigenpairs},
+          {"single_vector_lanczos", single_vector_lanczos},
           {"hks_times", hks_times},
           {"signal_resolution", signal_resolution}};
 }

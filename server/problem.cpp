@@ -61,6 +61,10 @@ api::Code code_of(ErrorCode code) {
       return api::Code::malformed_mesh;
     case ErrorCode::unsupported_format:
       return api::Code::unsupported_format;
+    case ErrorCode::compressed_geometry:
+      return api::Code::compressed_geometry;
+    case ErrorCode::external_reference:
+      return api::Code::external_reference;
     case ErrorCode::too_many_vertices:
       return api::Code::too_many_vertices;
     case ErrorCode::degenerate:

@@ -1,6 +1,8 @@
 #include "server/real_engine.h"
 
 #include "engine/engine.h"
+#include "engine/io/mesh_reader.h"
+#include "server/preparation_process.h"
 
 namespace spherematch {
 
@@ -11,8 +13,13 @@ Surface RealEngine::read_surface(std::span<const std::byte> bytes, std::string_v
   return spherematch::read_surface(bytes, name, repair, limits);
 }
 
+PolygonMesh RealEngine::read_mesh(std::span<const std::byte> bytes, std::string_view name) const {
+  return spherematch::read_mesh(bytes, name, ReadLimits::none());
+}
+
 PreprocessedShape RealEngine::preprocess(Surface surface, const Progress& progress) const {
-  return spherematch::preprocess(std::move(surface), {}, progress, threads_);
+  // The running program itself, also where its file has been replaced meanwhile.
+  return preprocess_apart("/proc/self/exe", threads_, std::move(surface), progress);
 }
 
 MatchResult RealEngine::match(const PreprocessedShape& source, const PreprocessedShape& target, const MatchParameters& parameters,

@@ -1,4 +1,4 @@
-// The engine itself, with a fixed number of threads.
+// The engine itself, with a fixed number of threads; preparations run in processes of their own.
 #pragma once
 
 #include "server/engine_port.h"
@@ -12,6 +12,7 @@ class RealEngine final : public EnginePort {
   [[nodiscard]] std::string version() const override;
   [[nodiscard]] Surface read_surface(std::span<const std::byte> bytes, std::string_view name, RepairMode repair,
                                      const ReadLimits& limits) const override;
+  [[nodiscard]] PolygonMesh read_mesh(std::span<const std::byte> bytes, std::string_view name) const override;
   [[nodiscard]] PreprocessedShape preprocess(Surface surface, const Progress& progress) const override;
   [[nodiscard]] MatchResult match(const PreprocessedShape& source, const PreprocessedShape& target, const MatchParameters& parameters,
                                   const Progress& progress) const override;

@@ -1,8 +1,10 @@
 // GET /match: the map between two shapes.
 #include <array>
+#include <optional>
+#include <utility>
 
 #include "api/json.h"
-#include "engine/io/map_writer.h"
+#include "engine/io/map_format.h"
 #include "server/conditional.h"
 #include "server/match_response.h"
 #include "server/negotiation.h"
@@ -15,11 +17,15 @@ namespace spherematch {
 
 namespace {
 
-constexpr std::array<Representation, 4> representations{{
-    {"json", "application/json"},
+constexpr std::array<Representation, 8> representations{{
+    {"json", "application/json"},  // the others are named as in engine/io/map_format.h
     {"npz", "application/x-npz"},
     {"npy", "application/x-npy"},
     {"txt", "text/plain"},
+    {"ply", "application/x-ply"},
+    {"glb", "model/gltf-binary"},
+    {"obj", "model/obj"},
+    {"png", "image/png"},
 }};
 constexpr std::array<std::string_view, 2> methods{"default", "paper"};
 constexpr std::array<std::string_view, 2> cache_modes{"yes", "no"};
@@ -57,10 +63,7 @@ std::string etag_of(const ServerContext& context, const MatchQuery& query) {
                     canonical(query.fields)});
 }
 
-std::string encode(const ServerContext& context, const MatchQuery& query, const MatchResult& result, std::int32_t n_tgt) {
-  if (query.representation->format == "npz") return encode_npz(result.map);
-  if (query.representation->format == "npy") return encode_npy(result.map);
-  if (query.representation->format == "txt") return encode_text(result.map);
+std::string encode_json(const ServerContext& context, const MatchQuery& query, const MatchResult& result, std::int32_t n_tgt) {
   api::Match match = match_of(result, query.fields);
   match.src = query.src;
   match.tgt = query.tgt;
@@ -77,10 +80,14 @@ HttpResponse compute(const ServerContext& context, const MatchQuery& query) {
   const Gate::Permit permit = context.matches.enter();
   const ShapePointer source = context.shapes.load(query.src);
   const ShapePointer target = context.shapes.load(query.tgt);
+  const std::optional<MapFormat> format = map_format_of(query.representation->format);
+  PolygonMesh source_mesh;  // before the match, so that a shape that is removed meanwhile does not spoil the end
+  if (format && needs_source_mesh(*format)) source_mesh = context.shapes.load_mesh(query.src);
   const MatchResult result = context.engine.match(*source, *target, query.parameters, {.report = {}, .stop = context.stop});
   return {.status = 200,
           .content_type = std::string(query.representation->media_type),
-          .body = encode(context, query, result, target->surface.uploaded_vertices()),
+          .body = format ? encode_map(*format, result.map, source->surface, target->surface, std::move(source_mesh))
+                         : encode_json(context, query, result, target->surface.uploaded_vertices()),
           .headers = {{"Server-Timing", server_timing(result.seconds)}}};
 }
 

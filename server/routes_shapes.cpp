@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -41,16 +42,39 @@ std::string shape_name(const RequestParameters& parameters, const std::string& f
   return name.substr(0, max_name_bytes);
 }
 
+/// curl calls every body a form unless told otherwise, so the name says nothing until the content is no mesh.
+std::string form_advice(const HttpRequest& request, std::string_view bytes, ErrorCode code) {
+  if (!request.header("content-type").starts_with("application/x-www-form-urlencoded")) return {};
+  if (code == ErrorCode::unsupported_format) {
+    return "; the body seems to be the fields of a form: send the file itself, as curl --data-binary @FILE or curl -F file=@FILE do";
+  }
+  if (code == ErrorCode::malformed_mesh && !bytes.empty() && bytes.find('\n') == std::string_view::npos) {
+    return "; the body has no line ends, as curl -d @FILE takes them out: use curl --data-binary @FILE";
+  }
+  return {};
+}
+
+ShapeService::Posted post_upload(const ServerContext& context, const HttpRequest& request, const Upload& upload, const std::string& name,
+                                 RepairMode repair) {
+  try {
+    const std::string& file_name = upload.file_name.empty() ? name : upload.file_name;
+    return context.shapes.post(std::as_bytes(std::span(upload.bytes)), name, file_name, repair);
+  } catch (const EngineError& error) {
+    const std::string advice = form_advice(request, upload.bytes, error.code());
+    if (advice.empty()) throw;
+    throw EngineError(error.code(), error.what() + advice, error.elements());
+  }
+}
+
 HttpResponse post_shape(const ServerContext& context, HttpRequest& request) {
   const RequestParameters parameters(request, {"name", "repair", "wait"});
   const std::string name = shape_name(parameters, request.upload.file_name);
   const RepairMode repair = parameters.choice("repair", repair_modes) == "fill" ? RepairMode::fill : RepairMode::none;
   const auto wait = parameters.seconds("wait", 0, max_wait_seconds);
 
-  Upload upload = std::exchange(request.upload, {});
-  const std::string& file_name = upload.file_name.empty() ? name : upload.file_name;
-  const auto [id, known] = context.shapes.post(std::as_bytes(std::span(upload.bytes)), name, file_name, repair);
-  upload = {};  // the wait may be long, and others may need the memory
+  auto upload = std::make_unique<Upload>(std::exchange(request.upload, {}));
+  const auto [id, known] = post_upload(context, request, *upload, name, repair);
+  upload.reset();  // the wait may be long, and others may need the memory
   context.shapes.wait_until_finished(id, ShapeService::Clock::now() + wait);
 
   const api::Shape shape = context.shapes.get(id);

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <set>
@@ -21,6 +22,27 @@ ProblemError not_ready(const std::string& id) { return {api::Code::shape_not_rea
 
 ProblemError failed(const ShapeRecord& record) {
   return {api::Code::shape_failed, "shape " + record.id + " could not be prepared: " + record.error_detail};
+}
+
+/// Of a preparation that ends for reasons which may lie outside the shape: want of memory or space, a process that was killed.
+constexpr int max_attempts = 3;
+
+/// Ends early with a stop.
+void pause(const std::stop_token& stop, std::chrono::milliseconds time) {
+  std::mutex mutex;
+  std::unique_lock lock(mutex);
+  std::condition_variable_any never;
+  never.wait_for(lock, stop, time, [] { return false; });
+}
+
+ProblemError preparation_problem(const std::exception_ptr& exception) {
+  try {
+    std::rethrow_exception(exception);
+  } catch (const PreparationLost& lost) {
+    return {api::Code::internal, std::string("the preparation broke off each time: ") + lost.what()};
+  } catch (...) {
+    return problem_of(std::current_exception());
+  }
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -64,7 +86,8 @@ ShapeService::ShapeService(ShapeStore& store, const EnginePort& engine, const Sh
       engine_(engine),
       settings_(settings),
       cache_(settings.cache_bytes),
-      jobs_([this](const std::string& id, const Progress& progress) { prepare(id, progress); }, settings.workers, settings.max_queued) {
+      jobs_([this](const std::string& id, const Progress& progress) { return prepare(id, progress); }, settings.workers,
+            settings.max_queued) {
   for (const std::string& id : store_.requeue_unfinished()) jobs_.submit(id, /*beyond_limit=*/true);
 }
 
@@ -72,8 +95,7 @@ ShapeService::Posted ShapeService::post(std::span<const std::byte> bytes, const 
                                         RepairMode repair) {
   const ContentId content = content_id(bytes, upload_options(repair));
   if (const auto known = store_.find(content.id)) return post_known(*known);
-  // Before the mesh is read and stored: a refused upload leaves nothing behind.
-  if (jobs_.full()) throw ProblemError(api::Code::overloaded, "too many shapes wait for their preparation; try again");
+  require_room();  // before the mesh is read and stored: a refused upload leaves nothing behind
   const Surface surface = engine_.read_surface(bytes, file_name, repair, settings_.read_limits);
   const InsertOutcome outcome = store_.insert(content, name, bytes, surface);
   jobs_.submit(content.id, /*beyond_limit=*/true);
@@ -81,9 +103,10 @@ ShapeService::Posted ShapeService::post(std::span<const std::byte> bytes, const 
 }
 
 ShapeService::Posted ShapeService::post_known(const ShapeRecord& record) {
-  const bool again = record.state == ShapeState::failed
-                         ? store_.requeue(record.id)
-                         : record.state == ShapeState::ready && store_.requeue_outdated(record.id, engine_.version());
+  const bool failed = record.state == ShapeState::failed;
+  const bool outdated = record.state == ShapeState::ready && record.engine != engine_.version();
+  if (failed || outdated) require_room();
+  const bool again = (failed && store_.requeue(record.id)) || (outdated && store_.requeue_outdated(record.id, engine_.version()));
   if (again || record.state == ShapeState::queued || record.state == ShapeState::processing) submit(record.id);
   return {record.id, !again};
 }
@@ -106,6 +129,8 @@ void ShapeService::remove(const std::string& id) {
   if (!is_shape_id(id) || !store_.remove(id)) throw no_such_shape(id);
   jobs_.cancel(id);
   cache_.erase(id);
+  // Who uploads the same bytes between the first two steps finds the old job active, and it is that one which was cancelled.
+  if (store_.find(id)) jobs_.submit(id, /*beyond_limit=*/true);
   spdlog::info("event=shape_removed shape={}", id);
 }
 
@@ -129,6 +154,7 @@ bool ShapeService::is_ready(const std::string& id) {
   if (record.state == ShapeState::failed) throw failed(record);
   if (record.state != ShapeState::ready) return false;
   if (record.engine == engine_.version()) return true;
+  require_room();
   store_.requeue_outdated(id, engine_.version());
   return false;
 }
@@ -145,9 +171,15 @@ ShapePointer ShapeService::load(const std::string& id) {
     if (error.code() != StorageErrorCode::corrupt_blob && error.code() != StorageErrorCode::unknown_version) throw;
     // The upload and its surface are blobs of their own, so what was derived from them can be made again.
     spdlog::warn("event=prepared_shape_unreadable shape={} detail=\"{}\"", id, error.what());
+    require_room();
     if (store_.requeue(id)) submit(id);
     throw not_ready(id);
   }
+}
+
+PolygonMesh ShapeService::load_mesh(const std::string& id) const {
+  const ShapeRecord record = record_of(id);
+  return engine_.read_mesh(store_.load_upload(id), record.name);
 }
 
 void ShapeService::stop() { jobs_.stop(); }
@@ -158,15 +190,15 @@ ShapeRecord ShapeService::record_of(const std::string& id) const {
   return *std::move(record);
 }
 
+void ShapeService::require_room() const {
+  if (jobs_.full()) throw ProblemError(api::Code::overloaded, "too many shapes wait for their preparation; try again");
+}
+
 void ShapeService::submit(const std::string& id) {
-  switch (jobs_.submit(id)) {
-    case JobRunner::Submitted::queued:
-    case JobRunner::Submitted::already_active:
-      return;
-    case JobRunner::Submitted::full:
-      throw ProblemError(api::Code::overloaded, "too many shapes wait for their preparation; try again");
-    case JobRunner::Submitted::stopped:
-      throw ProblemError(api::Code::draining, "the server is stopping");
+  // Whether there is room was asked when the shape was stored or queued again. Here the store says that it is unfinished, and then
+  // somebody has to work on it.
+  if (jobs_.submit(id, /*beyond_limit=*/true) == JobRunner::Submitted::stopped) {
+    throw ProblemError(api::Code::draining, "the server is stopping");
   }
 }
 
@@ -177,12 +209,16 @@ bool ShapeService::wait_until_finished(const std::string& id, Clock::time_point 
   return finished;
 }
 
-void ShapeService::prepare(const std::string& id, const Progress& progress) {
+JobRunner::Outcome ShapeService::prepare(const std::string& id, const Progress& progress) {
   try {
     compute(id, progress);
+    return JobRunner::Outcome::done;
   } catch (...) {
-    record_failure(id, progress, std::current_exception());
+    if (!progress.stop.stop_requested()) return record_failure(id, progress, std::current_exception());
   }
+  // Removed, or the server stops: then it stays unfinished in the store and is taken up again at the next start.
+  spdlog::info("event=job_cancelled shape={}", id);
+  return JobRunner::Outcome::done;
 }
 
 void ShapeService::compute(const std::string& id, const Progress& progress) {
@@ -199,22 +235,25 @@ void ShapeService::compute(const std::string& id, const Progress& progress) {
   spdlog::info("event=job_finished shape={} saved={} seconds={:.3f}{}", id, saved, seconds_since(started), text_of(shape->seconds));
 }
 
-void ShapeService::record_failure(const std::string& id, const Progress& progress, const std::exception_ptr& exception) {
-  if (progress.stop.stop_requested()) {
-    // Removed, or the server stops: then it stays unfinished in the store and is taken up again at the next start.
-    spdlog::info("event=job_cancelled shape={}", id);
-    return;
-  }
-  const api::Problem problem = problem_of(exception).problem();
-  const std::string_view code = api::entry_of(problem.code).wire;
-  spdlog::warn("event=job_failed shape={} code={} detail=\"{}\"", id, code, problem.detail);
-  // Want of memory or space says nothing about the shape: it stays unfinished, and its next use tries again.
-  if (problem.code == api::Code::overloaded || problem.code == api::Code::insufficient_storage) return;
+JobRunner::Outcome ShapeService::record_failure(const std::string& id, const Progress& progress, const std::exception_ptr& exception) {
   try {
+    const ProblemError error = preparation_problem(exception);
+    const api::Problem& problem = error.problem();
+    const bool lost =
+        problem.code == api::Code::internal || problem.code == api::Code::overloaded || problem.code == api::Code::insufficient_storage;
+    const int attempt = lost ? store_.count_lost_attempt(id) : max_attempts;
+    const std::string_view code = api::entry_of(problem.code).wire;
+    spdlog::warn("event=job_failed shape={} code={} attempt={} detail=\"{}\"", id, code, attempt, problem.detail);
+    if (attempt == 0) return JobRunner::Outcome::done;  // removed meanwhile
+    if (attempt < max_attempts) {
+      pause(progress.stop, settings_.pause_after_loss);
+      return JobRunner::Outcome::again;
+    }
     store_.mark_failed(id, code, problem.detail);
   } catch (const std::exception& error) {
     spdlog::error("event=failure_not_stored shape={} detail=\"{}\"", id, error.what());
   }
+  return JobRunner::Outcome::done;
 }
 
 }  // namespace spherematch

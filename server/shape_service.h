@@ -23,6 +23,7 @@ struct ShapeServiceSettings {
   std::size_t max_queued = 1000;
   std::size_t max_long_polls = 24;  ///< further waiters are answered at once
   std::size_t cache_bytes = std::size_t{256} << 20;
+  std::chrono::milliseconds pause_after_loss{1000};  ///< of a worker whose preparation was lost: what it lacked may come back
   ReadLimits read_limits;
 };
 
@@ -59,6 +60,9 @@ class ShapeService {
   void require_ready(const std::string& id, Clock::time_point deadline);
   /// The decoded shape. @throws ProblemError(shape_not_ready) when it is not ready (any more)
   [[nodiscard]] ShapePointer load(const std::string& id);
+  /// The uploaded mesh, read again from the stored upload: its bytes and a small multiple of them in memory. @throws
+  /// ProblemError(not_found)
+  [[nodiscard]] PolygonMesh load_mesh(const std::string& id) const;
 
   [[nodiscard]] JobRunner::Counts job_counts() const { return jobs_.counts(); }
 
@@ -67,9 +71,12 @@ class ShapeService {
 
  private:
   [[nodiscard]] ShapeRecord record_of(const std::string& id) const;
-  void prepare(const std::string& id, const Progress& progress);
+  JobRunner::Outcome prepare(const std::string& id, const Progress& progress);
   void compute(const std::string& id, const Progress& progress);
-  void record_failure(const std::string& id, const Progress& progress, const std::exception_ptr& exception);
+  /// `again` where the reason may be gone at the next attempt.
+  JobRunner::Outcome record_failure(const std::string& id, const Progress& progress, const std::exception_ptr& exception);
+  /// @throws ProblemError(overloaded) To be asked before a shape is queued in the store, so that none is queued there alone.
+  void require_room() const;
   void submit(const std::string& id);
   /// False where it has to be prepared first, also because an older engine did. @throws ProblemError(not_found, shape_failed)
   bool is_ready(const std::string& id);

@@ -18,7 +18,7 @@ constexpr std::chrono::milliseconds slice{100};  // how soon a stop is noticed
 }  // namespace
 
 SocketStream::SocketStream(int socket, StreamLimits limits, const std::atomic<bool>& stopping)
-    : socket_(socket), limits_(limits), stopping_(stopping), deadline_(Clock::now() + limits.total), buffer_() {}
+    : socket_(socket), limits_(limits), stopping_(stopping), opened_(Clock::now()), buffer_() {}
 
 bool SocketStream::is_readable() const { return begin_ < end_ || wait_for(POLLIN, Clock::now()); }
 
@@ -27,9 +27,10 @@ bool SocketStream::is_writable() const { return wait_for(POLLOUT, Clock::now());
 ssize_t SocketStream::read(char* to, size_t size) {
   if (head_left_ == 0) return -1;
   if (begin_ == end_) {
-    if (!wait_for(POLLIN, std::min(deadline_, Clock::now() + limits_.idle))) return -1;
+    if (!wait_for(POLLIN, deadline(opened_, received_))) return -1;
     const ssize_t received = ::recv(socket_, buffer_.data(), buffer_.size(), 0);
     if (received <= 0) return received;
+    received_ += static_cast<std::size_t>(received);
     begin_ = 0;
     end_ = static_cast<std::size_t>(received);
   }
@@ -47,14 +48,22 @@ ssize_t SocketStream::write(const char* from, size_t size) {
   if (status_ < 200 && text.size() >= start.size() + 3 && text.starts_with(start)) {
     std::from_chars(from + start.size(), from + start.size() + 3, status_);
   }
+  if (sent_ == 0) first_written_ = Clock::now();
   std::size_t sent = 0;
   while (sent < size) {
-    if (!wait_for(POLLOUT, Clock::now() + limits_.idle)) return -1;
+    if (!wait_for(POLLOUT, deadline(first_written_, sent_))) return -1;
     const ssize_t count = ::send(socket_, from + sent, size - sent, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (count < 0 && errno != EAGAIN && errno != EINTR) return -1;
-    if (count > 0) sent += static_cast<std::size_t>(count);
+    if (count <= 0) continue;
+    sent += static_cast<std::size_t>(count);
+    sent_ += static_cast<std::size_t>(count);
   }
   return static_cast<ssize_t>(size);
+}
+
+SocketStream::Clock::time_point SocketStream::deadline(Clock::time_point start, std::size_t bytes) const {
+  const auto earned = std::chrono::milliseconds(1000 * bytes / limits_.least_rate);
+  return std::min(start + limits_.patience + earned, Clock::now() + limits_.idle);
 }
 
 void SocketStream::get_remote_ip_and_port(std::string& ip, int& port) const {

@@ -15,9 +15,11 @@ namespace spherematch {
 /// The library bounds each header, but not their number.
 inline constexpr std::size_t max_head_bytes = 65536;
 
+/// What a peer may take. Each connection takes a thread, so one that trickles must not keep it for long.
 struct StreamLimits {
-  std::chrono::milliseconds idle{10'000};    ///< longest pause within a request or a response
-  std::chrono::milliseconds total{300'000};  ///< longest time from the first byte of a request to its last
+  std::chrono::milliseconds idle{10'000};      ///< longest pause within a request or a response
+  std::chrono::milliseconds patience{20'000};  ///< so long the rate does not matter
+  std::size_t least_rate = 32768;              ///< bytes per second that a request, and a response, must make on average beyond that
 };
 
 /// Does not own the socket. Used by one thread; `stopping` may be set by another, and then ends every wait for input.
@@ -46,11 +48,16 @@ class SocketStream final : public httplib::Stream {
  private:
   using Clock = std::chrono::steady_clock;
   [[nodiscard]] bool wait_for(short events, Clock::time_point deadline) const;
+  /// Until when the next of so many bytes must come or go.
+  [[nodiscard]] Clock::time_point deadline(Clock::time_point start, std::size_t bytes) const;
 
   const int socket_;
   const StreamLimits limits_;
   const std::atomic<bool>& stopping_;
-  const Clock::time_point deadline_;
+  const Clock::time_point opened_;
+  Clock::time_point first_written_;
+  std::size_t received_ = 0;
+  std::size_t sent_ = 0;
   std::array<char, 16384> buffer_;  ///< the library asks for headers byte by byte
   std::size_t head_left_ = max_head_bytes;
   std::size_t begin_ = 0;

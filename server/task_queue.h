@@ -1,7 +1,5 @@
-// The HTTP library's connections on a fixed number of threads with a bounded queue in front.
+// A fixed number of threads with a bounded queue in front.
 #pragma once
-
-#include <httplib.h>
 
 #include <condition_variable>
 #include <cstddef>
@@ -13,14 +11,16 @@
 
 namespace spherematch {
 
-/// A task that finds the queue full runs at once on the thread that brings it; HttpServer sheds the connection there.
-class BoundedTaskQueue final : public httplib::TaskQueue {
+/// Thread-safe. Tasks must not throw.
+class BoundedTaskQueue {
  public:
   BoundedTaskQueue(std::size_t threads, std::size_t max_queued);
+  ~BoundedTaskQueue();  ///< runs what is queued, then returns
+  BoundedTaskQueue(const BoundedTaskQueue&) = delete;
+  BoundedTaskQueue& operator=(const BoundedTaskQueue&) = delete;
 
-  void enqueue(std::function<void()> task) override;
-  /// Runs what is queued, then returns.
-  void shutdown() override;
+  /// False, and the task is dropped, when too many wait.
+  [[nodiscard]] bool enqueue(std::function<void()> task);
 
  private:
   void work_loop();

@@ -63,7 +63,9 @@ CREATE TABLE blobs (
 ) STRICT;
 )sql";
 
-constexpr std::array steps{first_schema};
+constexpr const char* count_attempts = "ALTER TABLE shapes ADD COLUMN attempts INTEGER NOT NULL DEFAULT 0;";
+
+constexpr std::array steps{first_schema, count_attempts};
 
 int pragma(SQLite::Database& database, const char* name) { return database.execAndGet(std::string("PRAGMA ") + name).getInt(); }
 

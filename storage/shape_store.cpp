@@ -93,8 +93,8 @@ bool requeue_where(ConnectionPool& pool, std::string_view id, const std::functio
   });
 }
 
-std::vector<std::string> unfinished_ids(SQLite::Database& database) {
-  SQLite::Statement query(database, "SELECT id FROM shapes WHERE state IN ('queued', 'processing') ORDER BY sequence");
+std::vector<std::string> unfinished_ids(SQLite::Database& database, const char* order) {
+  SQLite::Statement query(database, std::string("SELECT id FROM shapes WHERE state IN ('queued', 'processing') ORDER BY ") + order);
   std::vector<std::string> ids;
   while (query.executeStep()) ids.push_back(query.getColumn(0).getString());
   return ids;
@@ -210,6 +210,16 @@ bool ShapeStore::mark_failed(std::string_view id, std::string_view code, std::st
   });
 }
 
+int ShapeStore::count_lost_attempt(std::string_view id) {
+  return write(*pool_, [&](SQLite::Database& database) {
+    SQLite::Statement statement(database,
+                                "UPDATE shapes SET attempts = attempts + 1 WHERE id = ? AND state IN ('queued', 'processing') "
+                                "RETURNING attempts");
+    statement.bind(1, std::string(id));
+    return statement.executeStep() ? statement.getColumn(0).getInt() : 0;
+  });
+}
+
 bool ShapeStore::save_prepared(std::string_view id, const PreprocessedShape& shape) {
   const Blob surface = encode_surface(shape.surface);
   const Blob sphere = encode_sphere(shape.sphere);
@@ -240,13 +250,14 @@ bool ShapeStore::requeue_outdated(std::string_view id, std::string_view current_
 
 std::vector<std::string> ShapeStore::requeue_unfinished() {
   return write(*pool_, [](SQLite::Database& database) {
+    auto ids = unfinished_ids(database, "attempts, state = 'processing', sequence");
     database.exec("UPDATE shapes SET state = 'queued' WHERE state = 'processing'");
-    return unfinished_ids(database);
+    return ids;
   });
 }
 
 std::vector<std::string> ShapeStore::unfinished() const {
-  return read(*pool_, [](SQLite::Database& database) { return unfinished_ids(database); });
+  return read(*pool_, [](SQLite::Database& database) { return unfinished_ids(database, "sequence"); });
 }
 
 std::vector<std::byte> ShapeStore::load_upload(std::string_view id) const {

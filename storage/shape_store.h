@@ -87,6 +87,9 @@ class ShapeStore {
 
   bool mark_processing(std::string_view id);                                              ///< queued -> processing
   bool mark_failed(std::string_view id, std::string_view code, std::string_view detail);  ///< queued, processing -> failed
+  /// Counts a preparation that ended without a result and without an error of the shape's own, as when its process crashed. Returns
+  /// how many there were since the shape was queued; 0 when it is not queued or processing. Forgotten with requeue() and when ready.
+  int count_lost_attempt(std::string_view id);
   /// Any state -> ready; false, with nothing stored, when the shape was removed meanwhile. `shape.surface` takes the place of
   /// the stored one, since another engine version may repair an upload differently.
   /// @throws StorageError(too_large)
@@ -96,7 +99,9 @@ class ShapeStore {
   bool requeue(std::string_view id);
   /// requeue() of a ready shape that was prepared by another engine version than the given one.
   bool requeue_outdated(std::string_view id, std::string_view current_engine);
-  /// Processing -> queued, for the start of a server: whoever processed these is gone. Returns all queued ids, oldest first.
+  /// Processing -> queued, for the start of a server: whoever processed these is gone. Returns all queued ids in the order in which
+  /// they should be prepared: the oldest first, but behind all others those that were under way, and last those with lost attempts.
+  /// So a shape whose preparation brings down a server does not keep the next server from the others.
   std::vector<std::string> requeue_unfinished();
   /// Ids that are queued or processing, oldest first.
   [[nodiscard]] std::vector<std::string> unfinished() const;

@@ -13,6 +13,8 @@ namespace spherematch {
 enum class ErrorCode {
   malformed_mesh,            ///< the bytes are not what their format promises
   unsupported_format,        ///< no reader recognises the bytes
+  compressed_geometry,       ///< glTF geometry in a compressed form that is not read
+  external_reference,        ///< the mesh is partly in another file
   too_many_vertices,         ///< more vertices than the configured limit
   degenerate,                ///< zero or non-finite area, or fewer than four usable vertices
   non_manifold,              ///< non-manifold edge or vertex (repair=none)

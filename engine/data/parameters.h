@@ -3,12 +3,16 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace spherematch {
 
 struct ReadLimits {
   std::int64_t max_vertices = 300'000;
+
+  /// For a mesh that was accepted before, perhaps under another limit.
+  static constexpr ReadLimits none() { return {.max_vertices = std::numeric_limits<std::int32_t>::max()}; }
 };
 
 struct PreprocessParameters {
@@ -27,6 +31,7 @@ struct PreprocessParameters {
 
   // Eigenbasis and signals (engine/spectrum)
   int eigenpairs = 200;
+  bool single_vector_lanczos = false;  ///< the slower eigensolver, for comparison (engine/spectrum/eigenbasis.h)
   std::vector<double> hks_times{1.0, 0.5, 0.25, 0.125, 0.0625, 0.01};
   int signal_resolution = 128;
 

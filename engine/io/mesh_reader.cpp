@@ -4,7 +4,11 @@
 #include <array>
 
 #include "engine/data/error.h"
+#include "engine/io/gltf.h"
+#include "engine/io/obj.h"
 #include "engine/io/off.h"
+#include "engine/io/ply.h"
+#include "engine/io/stl.h"
 
 namespace spherematch {
 
@@ -17,7 +21,37 @@ struct Format {
   PolygonMesh (*read)(std::string_view text, const ReadLimits& limits);
 };
 
-constexpr std::array formats{Format{".off", is_off, read_off}};
+// OBJ comes last, for it is recognised by its statements and not by a signature.
+constexpr std::array formats{Format{".ply", is_ply, read_ply}, Format{".gltf", is_gltf, read_gltf}, Format{".glb", is_gltf, read_gltf},
+                             Format{".off", is_off, read_off}, Format{".stl", is_stl, read_stl},    Format{".obj", is_obj, read_obj}};
+
+/// What people upload by mistake, by its first bytes.
+struct Stranger {
+  std::string_view signature;
+  std::string_view description;
+};
+
+using namespace std::string_view_literals;
+constexpr std::array strangers{Stranger{"\x1F\x8B"sv, "is compressed with gzip; upload it unpacked"},
+                               Stranger{"PK\x03\x04"sv, "is a zip archive; upload the mesh in it"},
+                               Stranger{"BZh"sv, "is compressed with bzip2; upload it unpacked"},
+                               Stranger{"\xFD\x37zXZ\0"sv, "is compressed with xz; upload it unpacked"},
+                               Stranger{"\x28\xB5\x2F\xFD"sv, "is compressed with zstd; upload it unpacked"},
+                               Stranger{"7z\xBC\xAF\x27\x1C"sv, "is a 7z archive; upload the mesh in it"},
+                               Stranger{"Kaydara FBX Binary"sv, "is FBX"},
+                               Stranger{"; FBX"sv, "is FBX"},
+                               Stranger{"BLENDER"sv, "is a Blender scene"},
+                               Stranger{"# vtk DataFile"sv, "is VTK"},
+                               Stranger{"#VRML"sv, "is VRML"},
+                               Stranger{"ISO-10303-21"sv, "is STEP"},
+                               Stranger{"<"sv, "is XML or HTML"},
+                               Stranger{"\xFF\xFE"sv, "is text in UTF-16; save it as ASCII or UTF-8"},
+                               Stranger{"\xFE\xFF"sv, "is text in UTF-16; save it as ASCII or UTF-8"},
+                               Stranger{"\x89PNG"sv, "is an image"},
+                               Stranger{"\xFF\xD8\xFF"sv, "is an image"},
+                               Stranger{"%PDF"sv, "is PDF"}};
+
+constexpr std::string_view supported = "OFF, OBJ, PLY, STL, glTF and GLB are supported";
 
 bool ends_with_ignoring_case(std::string_view name, std::string_view extension) {
   if (name.size() < extension.size()) return false;
@@ -33,9 +67,12 @@ PolygonMesh read_mesh(std::span<const std::byte> bytes, std::string_view name, c
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   for (const Format& format : formats)
     if (format.recognises(text)) return format.read(text, limits);
+  for (const Stranger& stranger : strangers)
+    if (text.starts_with(stranger.signature))
+      throw EngineError(ErrorCode::unsupported_format, "the file " + std::string(stranger.description) + ". " + std::string(supported));
   for (const Format& format : formats)
     if (ends_with_ignoring_case(name, format.extension)) return format.read(text, limits);
-  throw EngineError(ErrorCode::unsupported_format, "the format of the mesh file is not recognised; OFF is supported");
+  throw EngineError(ErrorCode::unsupported_format, "the format of the mesh file is not recognised; " + std::string(supported));
 }
 
 }  // namespace spherematch

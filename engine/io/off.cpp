@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <limits>
 
 #include "engine/data/error.h"
+#include "engine/io/mesh_limits.h"
 #include "engine/io/text_scanner.h"
 
 namespace spherematch {
@@ -15,10 +15,6 @@ namespace {
 /// The shortest a vertex ("0 0 0\n") and a face ("3 0 1 2\n") can be; the last line may lack its end.
 constexpr std::int64_t shortest_vertex = 6;
 constexpr std::int64_t shortest_face = 8;
-/// A closed triangle mesh has six corners for each vertex, twice as many when every face is there from both sides.
-constexpr std::int64_t corners_per_vertex = 12;
-
-std::string_view without_byte_order_mark(std::string_view text) { return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text; }
 
 /// The keyword that `word` starts with, or nothing. Counts may follow it without a space, as in files of ModelNet.
 struct Keyword {
@@ -56,17 +52,12 @@ void read_keyword(TextScanner& scanner) {
     throw EngineError(ErrorCode::unsupported_format, "binary OFF files are not supported");
 }
 
-/// The configured limit, as far as corners can be counted in 32 bits.
-std::int64_t most_vertices(const ReadLimits& limits) {
-  return std::min<std::int64_t>(limits.max_vertices, std::numeric_limits<std::int32_t>::max() / corners_per_vertex);
-}
-
 struct Counts {
   std::int64_t vertices = 0;
   std::int64_t faces = 0;
 };
 
-Counts read_counts(TextScanner& scanner, const ReadLimits& limits) {
+Counts read_counts(TextScanner& scanner, const MeshLimits& limits) {
   Counts counts;
   counts.vertices = scanner.integer("the number of vertices");
   counts.faces = scanner.integer("the number of faces");
@@ -76,10 +67,8 @@ Counts read_counts(TextScanner& scanner, const ReadLimits& limits) {
   if (counts.vertices > room / shortest_vertex || counts.faces > (room - counts.vertices * shortest_vertex) / shortest_face)
     scanner.fail("the file is too short for " + std::to_string(counts.vertices) + " vertices and " + std::to_string(counts.faces) +
                  " faces");
-  if (counts.vertices > most_vertices(limits))
-    throw EngineError(ErrorCode::too_many_vertices, "the mesh has " + std::to_string(counts.vertices) + " vertices; the limit is " +
-                                                        std::to_string(most_vertices(limits)));
-  if (counts.vertices == 0 || counts.faces == 0) throw EngineError(ErrorCode::degenerate, "the mesh has no vertices or no faces");
+  limits.check_vertices(counts.vertices);
+  check_not_empty(counts.vertices, counts.faces);
   return counts;
 }
 
@@ -91,22 +80,14 @@ void read_vertices(TextScanner& scanner, std::int64_t count, Points& vertices) {
   }
 }
 
-void read_faces(TextScanner& scanner, const Counts& counts, const ReadLimits& limits, PolygonMesh& mesh) {
-  const std::int64_t most_corners = most_vertices(limits) * corners_per_vertex;
+void read_faces(TextScanner& scanner, const Counts& counts, const MeshLimits& limits, PolygonMesh& mesh) {
   mesh.offsets.reserve(static_cast<std::size_t>(counts.faces) + 1);
-  mesh.indices.reserve(static_cast<std::size_t>(std::min(3 * counts.faces, most_corners)));
+  mesh.indices.reserve(static_cast<std::size_t>(std::min(3 * counts.faces, limits.corners())));
   for (std::int64_t f = 0; f < counts.faces; ++f) {
     const std::int64_t corners = scanner.integer("the number of corners of a face");
-    if (corners < 3) scanner.fail("a face has " + std::to_string(corners) + " corners");
-    if (corners > most_corners - static_cast<std::int64_t>(mesh.indices.size()))
-      throw EngineError(ErrorCode::too_many_vertices, "line " + std::to_string(scanner.line()) + ": the faces have more than " +
-                                                          std::to_string(most_corners) + " corners");
-    for (std::int64_t k = 0; k < corners; ++k) {
-      const std::int64_t index = scanner.integer("a vertex index");
-      if (index < 0 || index >= counts.vertices)
-        scanner.fail("vertex index " + std::to_string(index) + " is not in 0 to " + std::to_string(counts.vertices - 1));
-      mesh.indices.push_back(static_cast<std::int32_t>(index));
-    }
+    limits.check_face(corners, static_cast<std::int64_t>(mesh.indices.size()), scanner);
+    for (std::int64_t k = 0; k < corners; ++k)
+      mesh.indices.push_back(checked_index(scanner.integer("a vertex index"), counts.vertices, scanner));
     mesh.offsets.push_back(static_cast<std::int32_t>(mesh.indices.size()));
     scanner.skip_line();
   }
@@ -120,12 +101,13 @@ bool is_off(std::string_view text) {
 }
 
 PolygonMesh read_off(std::string_view text, const ReadLimits& limits) {
+  const MeshLimits mesh_limits(limits);
   TextScanner scanner(without_byte_order_mark(text));
   read_keyword(scanner);
-  const Counts counts = read_counts(scanner, limits);
+  const Counts counts = read_counts(scanner, mesh_limits);
   PolygonMesh mesh;
   read_vertices(scanner, counts.vertices, mesh.vertices);
-  read_faces(scanner, counts, limits, mesh);
+  read_faces(scanner, counts, mesh_limits, mesh);
   return mesh;
 }
 

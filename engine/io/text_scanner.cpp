@@ -1,5 +1,6 @@
 #include "engine/io/text_scanner.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -10,7 +11,17 @@ namespace spherematch {
 
 namespace {
 
-bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+constexpr bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+/// Characters that end a word, or may do so, by their code.
+constexpr auto ends_word = [] {
+  std::array<bool, 256> table{};
+  for (std::size_t code = 0; code < table.size(); ++code) {
+    const auto c = static_cast<char>(code);
+    table[code] = is_space(c) || c == '#' || c == '\\';
+  }
+  return table;
+}();
 
 /// from_chars reports what is too small for a double as out of range, like what is too large.
 bool is_tiny(std::string_view word) {
@@ -21,16 +32,17 @@ bool is_tiny(std::string_view word) {
 
 }  // namespace
 
-std::string quoted(std::string_view word) {
-  constexpr std::size_t longest = 24;
+std::string quoted(std::string_view word, std::size_t longest) {
   std::string text = "'";
   for (const char c : word.substr(0, longest)) text += c >= ' ' && c <= '~' ? c : '?';
   return text + (word.size() > longest ? "...'" : "'");
 }
 
-void TextScanner::fail(const std::string& message) const {
-  throw EngineError(ErrorCode::malformed_mesh, "line " + std::to_string(line_) + ": " + message);
-}
+std::string_view without_byte_order_mark(std::string_view text) { return text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text; }
+
+std::string TextScanner::place() const { return "line " + std::to_string(line_) + ": "; }
+
+void TextScanner::fail(const std::string& message) const { throw EngineError(ErrorCode::malformed_mesh, place() + message); }
 
 void TextScanner::skip_line() {
   while (position_ < text_.size() && text_[position_] != '\n') ++position_;
@@ -40,14 +52,26 @@ void TextScanner::skip_line() {
   }
 }
 
+/// The length of a backslash with the line end after it, when that comes next and joins lines; else zero.
+std::size_t TextScanner::joint_length() const {
+  if (!statements_ || text_[position_] != '\\') return 0;
+  const std::string_view after = text_.substr(position_ + 1, 2);
+  if (after.starts_with('\n')) return 2;
+  return after == "\r\n" ? 3 : 0;
+}
+
 void TextScanner::skip_space() {
   while (position_ < text_.size()) {
     const char c = text_[position_];
+    if (c == '\n' && statements_) return;
     if (c == '#') {
-      skip_line();
+      while (position_ < text_.size() && text_[position_] != '\n') ++position_;
     } else if (is_space(c)) {
       if (c == '\n') ++line_;
       ++position_;
+    } else if (const std::size_t joint = joint_length(); joint > 0) {
+      ++line_;
+      position_ += joint;
     } else {
       return;
     }
@@ -57,13 +81,16 @@ void TextScanner::skip_space() {
 std::string_view TextScanner::word() {
   skip_space();
   const std::size_t first = position_;
-  while (position_ < text_.size() && !is_space(text_[position_]) && text_[position_] != '#') ++position_;
+  for (; position_ < text_.size(); ++position_) {
+    const char c = text_[position_];
+    if (ends_word[static_cast<unsigned char>(c)] && (c != '\\' || joint_length() > 0)) break;
+  }
   return text_.substr(first, position_ - first);
 }
 
 std::string_view TextScanner::number_word(std::string_view what) {
   std::string_view digits = word();
-  if (digits.empty()) fail("the file ends where " + std::string(what) + " should be");
+  if (digits.empty()) fail((remaining() == 0 ? "the file ends where " : "the line ends where ") + std::string(what) + " should be");
   if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
   return digits;
 }

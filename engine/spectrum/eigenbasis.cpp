@@ -1,146 +1,181 @@
 #include "engine/spectrum/eigenbasis.h"
 
-#include <Spectra/SymGEigsShiftSolver.h>
-
+#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <numeric>
-#include <vector>
+#include <cmath>
+#include <cstdint>
 
-#include "engine/mesh/laplacian.h"
+#include "engine/spectrum/shift_inverse.h"
 
 namespace spherematch {
 namespace {
 
-/// y = (S - sigma M)^-1 x for Spectra.
-class ShiftInverse {
- public:
-  using Scalar = double;
-
-  ShiftInverse(const Laplacian& laplacian, const Progress& progress) : laplacian_(laplacian), progress_(progress) {}
-
-  [[nodiscard]] Eigen::Index rows() const { return laplacian_.stiffness.rows(); }
-  [[nodiscard]] Eigen::Index cols() const { return rows(); }
-  void set_shift(double sigma) {
-    solver_.compute(laplacian_.stiffness - sigma * laplacian_.mass);
-    if (solver_.info() != Eigen::Success) throw EngineError(ErrorCode::parametrization_failed, "the eigenproblem is singular");
-  }
-  void perform_op(const double* x, double* y) const {
-    progress_.check();
-    Eigen::Map<Eigen::VectorXd>(y, rows()) = solver_.solve(Eigen::Map<const Eigen::VectorXd>(x, rows()));
-  }
-
- private:
-  const Laplacian& laplacian_;
-  const Progress& progress_;
-  Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> solver_;
-};
-
-/// y = M x for Spectra.
-class MassProduct {
- public:
-  using Scalar = double;
-
-  explicit MassProduct(const SparseMatrix& lower) : mass_(lower.selfadjointView<Eigen::Lower>()) {}
-
-  [[nodiscard]] Eigen::Index rows() const { return mass_.rows(); }
-  [[nodiscard]] Eigen::Index cols() const { return rows(); }
-  void perform_op(const double* x, double* y) const {
-    Eigen::Map<Eigen::VectorXd>(y, rows()).noalias() = mass_ * Eigen::Map<const Eigen::VectorXd>(x, rows());
-  }
-
- private:
-  SparseMatrix mass_;
-};
-
-/// (S - sigma M)^-1 with the pairs already known taken out.
-class DeflatedInverse {
- public:
-  using Scalar = double;
-
-  DeflatedInverse(ShiftInverse& inverse, const MassProduct& mass, const Eigen::MatrixXd& known)
-      : inverse_(inverse), mass_(mass), known_(known) {}
-
-  [[nodiscard]] Eigen::Index rows() const { return inverse_.rows(); }
-  [[nodiscard]] Eigen::Index cols() const { return rows(); }
-  void set_shift(double sigma) { inverse_.set_shift(sigma); }
-  void perform_op(const double* x, double* y) const {
-    inverse_.perform_op(x, y);
-    Eigen::Map<Eigen::VectorXd> result(y, rows());
-    Eigen::VectorXd product(rows());
-    mass_.perform_op(y, product.data());
-    result.noalias() -= known_ * (known_.transpose() * product).eval();
-  }
-
- private:
-  ShiftInverse& inverse_;
-  const MassProduct& mass_;
-  const Eigen::MatrixXd& known_;
-};
-
 constexpr double kShift = -10.0;  // below the spectrum, so that the shifted matrix is positive definite; of the order of a gap
+constexpr double kTolerance = 1e-9;
+constexpr Eigen::Index kWidth = ShiftInverse::width;
 
-/// The `wanted` pairs nearest to the shift that `inverse` knows of.
-template <typename Inverse>
-Eigenbasis lanczos(Inverse& inverse, MassProduct& mass, Eigen::Index wanted, Eigen::Index krylov, Eigen::Index seed) {
-  constexpr double kTolerance = 1e-9;
-  constexpr int kRestarts = 300;
-  Spectra::SymGEigsShiftSolver<Inverse, MassProduct, Spectra::GEigsMode::ShiftInvert> solver(inverse, mass, wanted, krylov, kShift);
-  // A start that is not itself an eigenvector (constants are), and another one for each seed: what one start does not see in an
-  // eigenspace it never sees.
-  Eigen::VectorXd start(inverse.rows());
-  for (Eigen::Index i = 0; i < start.size(); ++i) start[i] = 1.0 + static_cast<double>((i * (7919 + 611 * seed)) % 1009) / 1009.0;
-  solver.init(start.data());
-  const Eigen::Index found = solver.compute(Spectra::SortRule::LargestMagn, kRestarts, kTolerance, Spectra::SortRule::SmallestAlge);
-  if (found < wanted) throw EngineError(ErrorCode::parametrization_failed, "the eigenproblem did not converge");
-  return {solver.eigenvalues(), solver.eigenvectors()};
+using Block = Eigen::Matrix<double, Eigen::Dynamic, kWidth>;
+using Coupling = Eigen::Matrix<double, kWidth, kWidth>;
+
+/// A growing Krylov basis of A = (S - sigma M)^-1 M, orthonormal in the inner product of M, and the projection of A to it.
+class KrylovBasis {
+ public:
+  KrylovBasis(const Laplacian& laplacian, Eigen::Index most_vectors)
+      : mass_(laplacian.mass.selfadjointView<Eigen::Lower>()),
+        inverse_(laplacian, kShift),
+        basis_(mass_.rows(), most_vectors),
+        projected_(Eigen::MatrixXd::Zero(most_vectors, most_vectors)),
+        next_(mass_.rows(), kWidth),
+        mass_next_(mass_.rows(), kWidth) {
+    randomize();
+  }
+
+  [[nodiscard]] Eigen::Index size() const { return size_; }
+  [[nodiscard]] Eigen::Index capacity() const { return basis_.cols(); }
+  [[nodiscard]] auto vectors() const { return basis_.leftCols(size_); }
+  /// V^T M A V, its upper triangle.
+  [[nodiscard]] auto projected() const { return projected_.topLeftCorner(size_, size_); }
+  /// A V = V T + Q C: what leaves the basis comes from its last block, through this C.
+  [[nodiscard]] const Coupling& coupling() const { return coupling_; }
+
+  /// Takes the next block into the basis and makes the one after it.
+  void extend() {
+    const Eigen::Index at = size_;
+    basis_.middleCols(at, kWidth) = next_;
+    size_ += kWidth;
+    ShiftInverse::Block image = mass_next_;
+    inverse_.apply(image);
+    next_ = image;
+    // In exact arithmetic only the last two blocks matter; what rounding lets in of the others is taken out afterwards, when the
+    // large parts are gone, so that one pass over the whole basis is enough.
+    coupling_.setIdentity();
+    mass_next_.noalias() = mass_ * next_;
+    project_out(std::max<Eigen::Index>(0, at - kWidth), at);
+    normalize();
+    project_out(0, at);
+    normalize();
+  }
+
+  /// Puts random vectors, orthogonal to the basis, in the place of the next block: for directions that the basis cannot see.
+  void randomize() {
+    for (Eigen::Index j = 0; j < kWidth; ++j)
+      for (Eigen::Index i = 0; i < next_.rows(); ++i) next_(i, j) = random();
+    for (int pass = 0; pass < 2; ++pass) {
+      mass_next_.noalias() = mass_ * next_;
+      next_.noalias() -= vectors() * (vectors().transpose() * mass_next_).eval();
+      normalize();
+    }
+  }
+
+ private:
+  /// Takes the basis vectors from `first` on out of the next block, whose coefficients belong to the columns at `column`.
+  void project_out(Eigen::Index first, Eigen::Index column) {
+    const auto part = basis_.middleCols(first, size_ - first);
+    const Eigen::MatrixXd coefficients = part.transpose() * mass_next_;
+    next_.noalias() -= part * coefficients;
+    projected_.block(first, column, size_ - first, kWidth) += coefficients * coupling_;
+  }
+
+  /// Makes the next block orthonormal, and records in the coupling by what it was multiplied.
+  void normalize() {
+    mass_next_.noalias() = mass_ * next_;
+    const Eigen::SelfAdjointEigenSolver<Coupling> gram(next_.transpose() * mass_next_);
+    const Eigen::Matrix<double, kWidth, 1> lengths = gram.eigenvalues().cwiseMax(1e-300).cwiseSqrt();
+    const Coupling turn = gram.eigenvectors() * lengths.cwiseInverse().asDiagonal();
+    next_ = (next_ * turn).eval();
+    mass_next_ = (mass_next_ * turn).eval();
+    coupling_ = (lengths.asDiagonal() * gram.eigenvectors().transpose() * coupling_).eval();
+  }
+
+  /// Xorshift, between -1/2 and 1/2.
+  double random() {
+    random_ ^= random_ << 13;
+    random_ ^= random_ >> 7;
+    random_ ^= random_ << 17;
+    return static_cast<double>(random_ >> 11) * 0x1p-53 - 0.5;
+  }
+
+  const SparseMatrix mass_;
+  const ShiftInverse inverse_;
+  Eigen::MatrixXd basis_;
+  Eigen::MatrixXd projected_;
+  Eigen::Index size_ = 0;
+  Block next_, mass_next_;
+  Coupling coupling_ = Coupling::Identity();
+  std::uint64_t random_ = 0x9E3779B97F4A7C15;
+};
+
+/// Eigenpairs of the projection, as far as they matter.
+struct RitzPairs {
+  Eigen::VectorXd values;   ///< (k), of the Laplacian, ascending
+  Eigen::MatrixXd weights;  ///< (basis size, k)
+  bool converged = false;
+};
+
+RitzPairs ritz_pairs(const KrylovBasis& basis, Eigen::Index wanted) {
+  const Eigen::MatrixXd projected = basis.projected().selfadjointView<Eigen::Upper>();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(projected);
+  const Eigen::VectorXd inverted = solver.eigenvalues().tail(wanted).reverse();
+  RitzPairs pairs{kShift + inverted.cwiseInverse().array(), solver.eigenvectors().rightCols(wanted).rowwise().reverse()};
+  const Eigen::VectorXd residuals = (basis.coupling() * pairs.weights.bottomRows(kWidth)).colwise().norm();
+  pairs.converged = (residuals.array() <= kTolerance * inverted.array()).all();
+  return pairs;
 }
 
-/// How many eigenvalues lie below `sigma`, by Sylvester's law of inertia.
-Eigen::Index count_below(const Laplacian& laplacian, double sigma) {
+/// By Sylvester's law of inertia: how many eigenvalues below the last are not among `values`.
+Eigen::Index missing(const Laplacian& laplacian, const Eigen::VectorXd& values) {
+  const double sigma = values[values.size() - 1] * (1 - 1e-7);
   const Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> factors(laplacian.stiffness - sigma * laplacian.mass);
   if (factors.info() != Eigen::Success) return 0;  // sigma is an eigenvalue to rounding: nothing can be said
-  return (factors.vectorD().array() < 0).count();
+  return (factors.vectorD().array() < 0).count() - (values.array() < sigma).count();
 }
 
-/// The lowest `count` of both sets, ascending.
-Eigenbasis merge(const Eigenbasis& a, const Eigenbasis& b, Eigen::Index count) {
-  Eigen::VectorXd values(a.values.size() + b.values.size());
-  values << a.values, b.values;
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&values](Eigen::Index i, Eigen::Index j) { return values[i] < values[j]; });
-  Eigenbasis result{Eigen::VectorXd(count), Eigen::MatrixXd(a.vectors.rows(), count)};
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const Eigen::Index i = order[static_cast<std::size_t>(k)];
-    result.values[k] = values[i];
-    result.vectors.col(k) = i < a.values.size() ? a.vectors.col(i) : b.vectors.col(i - a.values.size());
+Eigen::MatrixXd assemble(const KrylovBasis& basis, const Eigen::MatrixXd& weights, const Progress& progress) {
+  constexpr Eigen::Index rows_at_once = 8192;
+  Eigen::MatrixXd vectors(basis.vectors().rows(), weights.cols());
+  for (Eigen::Index row = 0; row < vectors.rows(); row += rows_at_once) {
+    progress.check();
+    const Eigen::Index rows = std::min(rows_at_once, vectors.rows() - row);
+    vectors.middleRows(row, rows).noalias() = basis.vectors().middleRows(row, rows) * weights;
   }
-  return result;
+  return vectors;
+}
+
+/// For meshes so small that the Krylov basis would fill the space.
+Eigenbasis solve_densely(const Laplacian& laplacian, Eigen::Index wanted) {
+  const Eigen::MatrixXd stiffness = Eigen::MatrixXd(laplacian.stiffness).selfadjointView<Eigen::Lower>();
+  const Eigen::MatrixXd mass = Eigen::MatrixXd(laplacian.mass).selfadjointView<Eigen::Lower>();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
+  return {solver.eigenvalues().head(wanted), solver.eigenvectors().leftCols(wanted)};
 }
 
 }  // namespace
 
-Eigenbasis compute_eigenbasis(const IntrinsicMesh& mesh, Eigen::Index vertex_count, int count, const Progress& progress) {
-  const Laplacian laplacian = cotangent_laplacian(mesh, vertex_count);
-  const Eigen::Index wanted = std::min<Eigen::Index>(count, vertex_count - 2);
-  ShiftInverse inverse(laplacian, progress);
-  MassProduct mass(laplacian.mass);
-  Eigenbasis basis = lanczos(inverse, mass, wanted, std::min<Eigen::Index>(2 * wanted, vertex_count), 0);
+Eigenbasis compute_eigenbasis(const Laplacian& laplacian, int count, const Progress& progress, const std::function<void(double)>& report) {
+  progress.check();
+  const Eigen::Index vertices = laplacian.stiffness.rows(), wanted = std::min<Eigen::Index>(count, vertices - 2);
+  // Measured on many meshes: 2.6 to 3 vectors for each pair, fewer of them the more pairs.
+  const Eigen::Index first_look = 27 * wanted / 10 + 4 * kWidth, look_again = wanted / 5 + kWidth, most = 6 * wanted + 12 * kWidth;
+  if (vertices <= first_look + look_again + kWidth) return solve_densely(laplacian, wanted);
 
-  // Lanczos from one vector sees one of several equal eigenvalues, as symmetric surfaces have them. Counting tells how many are
-  // missing; they are the lowest of what is left when the known pairs are taken out.
-  for (int round = 0; round < 8; ++round) {
-    const double sigma = basis.values[wanted - 1] * (1 - 1e-7);
-    const Eigen::Index missing = count_below(laplacian, sigma) - (basis.values.array() < sigma).count();
-    if (missing <= 0) break;
-    const Eigen::MatrixXd known = basis.vectors;
-    DeflatedInverse deflated(inverse, mass, known);
-    const Eigen::Index more = std::min(missing, vertex_count - 2);
-    const Eigenbasis rest = lanczos(deflated, mass, more, std::min<Eigen::Index>(2 * more + 20, vertex_count), round + 1);
-    basis = merge(basis, rest, wanted);
+  KrylovBasis basis(laplacian, std::min(most, vertices - kWidth));
+  Eigen::Index look = first_look;
+  while (basis.size() + kWidth <= basis.capacity()) {
+    progress.check();
+    basis.extend();
+    // The work of a step grows with the basis.
+    const double part = static_cast<double>(basis.size()) / static_cast<double>(first_look + look_again);
+    if (report) report(std::min(0.95, part * part));
+    if (basis.size() < look) continue;
+    look = basis.size() + look_again;
+    const RitzPairs pairs = ritz_pairs(basis, wanted);
+    if (!pairs.converged) continue;
+    if (missing(laplacian, pairs.values) <= 0) return {pairs.values, assemble(basis, pairs.weights, progress)};
+    // More equal eigenvalues than a block is wide show themselves to vectors from elsewhere only.
+    basis.randomize();
   }
-  return basis;
+  throw EngineError(ErrorCode::parametrization_failed, "the eigenproblem did not converge");
 }
 
 }  // namespace spherematch

@@ -6,23 +6,18 @@ namespace spherematch {
 namespace {
 
 TEST(OutputFormat, FollowsTheExtension) {
-  EXPECT_EQ(output_format_of("map.npz"), OutputFormat::npz);
-  EXPECT_EQ(output_format_of("a.b/MAP.NPY"), OutputFormat::npy);
-  EXPECT_EQ(output_format_of("map.txt"), OutputFormat::text);
-  for (const char* file : {"map", "map.ply", "npz", ".npz", "map.npz/", "map.npz.gz", ""})
+  EXPECT_EQ(output_format_of("map.npz"), MapFormat::npz);
+  EXPECT_EQ(output_format_of("a.b/MAP.NPY"), MapFormat::npy);
+  EXPECT_EQ(output_format_of("map.txt"), MapFormat::text);
+  EXPECT_EQ(output_format_of("map.Ply"), MapFormat::ply);
+  EXPECT_EQ(output_format_of("map.glb"), MapFormat::glb);
+  EXPECT_EQ(output_format_of("map.obj"), MapFormat::obj);
+  EXPECT_EQ(output_format_of("picture.png"), MapFormat::png);
+  for (const char* file : {"map", "map.json", "npz", ".npz", "map.npz/", "map.npz.gz", "map.", ""})
     EXPECT_EQ(output_format_of(file), std::nullopt) << file;
-  EXPECT_EQ(supported_extensions(), ".npz, .npy, .txt");
 }
 
-TEST(OutputFormat, EncodesAsAsked) {
-  Correspondence map;
-  map.vertex = {3, -1};
-  map.corners.setZero(2, 3);
-  map.bary.setZero(2, 3);
-  EXPECT_EQ(encode(map, OutputFormat::text), "3\n-1\n");
-  EXPECT_EQ(encode(map, OutputFormat::npy).substr(1, 5), "NUMPY");
-  EXPECT_EQ(encode(map, OutputFormat::npz).substr(0, 2), "PK");
-}
+TEST(OutputFormat, NamesWhatIsSupported) { EXPECT_EQ(supported_extensions(), ".npz, .npy, .txt, .ply, .glb, .obj, .png"); }
 
 }  // namespace
 }  // namespace spherematch

@@ -37,6 +37,19 @@ class CliTest(support.TestCase):
         with open(self.place + '/map.txt') as file:
             self.assertEqual([int(line) for line in file], vertex)
 
+    def test_writes_what_the_server_sends(self):
+        self.assertEqual(self.run_cli('prepare', 'a.off', 'b.off', '--store', self.store).returncode, 0)
+        server = self.serve(self.store)
+        ids = []
+        for name in ('a', 'b'):
+            with open(f'{self.place}/{name}.off', 'rb') as file:
+                ids.append(server.ready(file.read()))
+        for extension in ('npz', 'npy', 'txt', 'ply', 'glb', 'obj', 'png'):
+            done = self.run_cli('match', 'a.off', 'b.off', '--store', self.store, '-o', 'map.' + extension)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with open(f'{self.place}/map.{extension}', 'rb') as file:
+                self.assertEqual(file.read(), server.get('/match', src=ids[0], tgt=ids[1], format=extension).body, extension)
+
     def test_shares_its_store_with_a_server(self):
         self.run_cli('prepare', 'a.off', '--store', self.store)
         server = self.serve(self.store)
@@ -50,6 +63,30 @@ class CliTest(support.TestCase):
         with open(self.place + '/map.npz', 'rb') as file:
             self.assertEqual(file.read(), server.get('/match', src=known.json()['id'], tgt=b, format='npz').body)
 
+    def test_evaluate(self):
+        for target in ('a', 'b'):
+            self.assertEqual(self.run_cli('match', 'a.off', target + '.off', '--store', self.store, '-o', target + '.npz').returncode, 0)
+        done = self.run_cli('evaluate', 'a.off', 'a.off', 'a.npz')
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        self.assertRegex(done.stdout, r'^error: mean 0\.0\d, median 0\.0\d, .* 162 landmarks\n$')
+        with open(self.place + '/some.vts', 'w') as file:
+            file.write('1\n20\n162\n')
+        with open(self.place + '/others.vts', 'w') as file:
+            file.write('162\n1\n20\n')
+        done = self.run_cli('evaluate', 'a.off', 'b.off', 'b.npz', '--landmarks', 'some.vts', 'some.vts', '--mirrored', 'others.vts')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r'3 landmarks\nagainst the mirrored truth: .*\nflipped: no\n$')
+
+        def fails(code, message, *arguments):
+            done = self.run_cli('evaluate', *arguments)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertIn(message, done.stderr)
+
+        fails(2, 'MAP', 'a.off', 'b.off')
+        fails(3, 'not an NPZ', 'a.off', 'b.off', 'some.vts')
+        fails(3, 'have 3 and 0 entries', 'a.off', 'b.off', 'b.npz', '--landmarks', 'some.vts', '/dev/null')
+        fails(4, 'nowhere.npz', 'a.off', 'b.off', 'nowhere.npz')
+
     def test_errors_and_exit_codes(self):
         def fails(code, message, *arguments):
             done = self.run_cli(*arguments)
@@ -62,7 +99,7 @@ class CliTest(support.TestCase):
         fails(2, 'subcommand')
         fails(2, 'subcommand', 'bogus')
         fails(2, 'SRC', 'match')
-        fails(2, '.npz, .npy, .txt', 'match', 'a.off', 'b.off', '-o', 'map.ply', '--store', self.store)
+        fails(2, '.npz, .npy, .txt, .ply, .glb, .obj, .png', 'match', 'a.off', 'b.off', '-o', 'map.xyz', '--store', self.store)
         fails(3, 'torus.off: ', 'prepare', 'torus.off', '--store', self.store)
         fails(4, 'nowhere.off: ', 'prepare', 'nowhere.off', '--store', self.store)
         fails(4, '', 'prepare', 'a.off', '--store', self.place + '/a.off')
@@ -71,11 +108,10 @@ class CliTest(support.TestCase):
         self.assertIn('a.off: 162 vertices', fails(3, 'torus.off', 'prepare', 'torus.off', 'a.off', '--store', self.store).stdout)
 
     def test_help(self):
-        for arguments in (['--help'], ['prepare', '--help'], ['match', '--help']):
+        for arguments in (['--help'], ['prepare', '--help'], ['match', '--help'], ['evaluate', '--help']):
             done = self.run_cli(*arguments)
             self.assertEqual(done.returncode, 0)
             self.assertIn('Exit codes', done.stdout)
-        self.assertNotIn('evaluate', self.run_cli('--help').stdout)
 
 
 if __name__ == '__main__':

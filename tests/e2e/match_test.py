@@ -5,6 +5,7 @@ import threading
 import time
 import unittest
 
+import result_files
 import support
 
 SRC = support.bumpy(3)
@@ -64,14 +65,87 @@ class MatchTest(support.TestCase):
         errors = sorted(math.dist(TGT[0][i], TGT[0][j]) for i, j in enumerate(vertex))
         self.assertLess(errors[len(errors) // 2], 0.25)
 
+    def test_meshes_are_the_source_in_the_colours_of_its_images(self):
+        result = self.match(fields='corners,bary').json()
+        box = [(min(p[k] for p in TGT[0]), max(p[k] for p in TGT[0])) for k in range(3)]
+        ply = self.match(format='ply')
+        self.assertEqual(ply.headers['Content-Type'], 'application/x-ply')
+        vertices, faces = result_files.read_ply(ply.body)
+        self.assertEqual(faces, [list(face) for face in SRC[1]])
+        self.assertEqual(len(vertices), len(SRC[0]))
+        colours = []
+        for vertex, place, corners, bary in zip(vertices, SRC[0], result['corners'], result['bary'], strict=True):
+            image = [sum(w * TGT[0][c][k] for w, c in zip(bary, corners)) for k in range(3)]
+            for k, (own, its) in enumerate((('x', 'tx'), ('y', 'ty'), ('z', 'tz'))):
+                self.assertAlmostEqual(vertex[own], place[k], places=5)
+                self.assertAlmostEqual(vertex[its], image[k], places=5)
+            colours.append((vertex['red'], vertex['green'], vertex['blue']))
+            for colour, x, (low, high) in zip(colours[-1], image, box):
+                self.assertLessEqual(abs(colour - 255 * (x - low) / (high - low)), 0.51)
+
+        obj_vertices, obj_faces = result_files.read_obj(self.match(format='obj').body)
+        self.assertEqual(obj_faces, faces)
+        self.assertEqual([tuple(round(255 * c) for c in row[3:]) for row in obj_vertices], colours)
+        for row, place in zip(obj_vertices, SRC[0], strict=True):
+            for a, b in zip(row, place):
+                self.assertAlmostEqual(a, b, places=7)
+
+        positions, normals, rgba, triangles = result_files.read_glb(self.match(format='glb').body)
+        self.assertEqual(triangles, faces)
+        self.assertEqual([c[:3] for c in rgba], colours)
+        self.assertEqual(positions, [(v['x'], v['y'], v['z']) for v in vertices])
+        self.assertEqual(len(normals), len(positions))
+
+    def test_polygons_and_dropped_vertices_reach_the_mesh_files(self):
+        """A box of quadrilaterals and a stray triangle, whose three vertices repair drops."""
+        corners = [(x, 1.3 * y, 1.7 * z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+        quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+        box = self.server.ready(support.off((corners + [(9, 9, 9), (9.1, 9, 9), (9, 9.1, 9)], quads + [(8, 9, 10)])))
+        get = lambda form: self.server.get('/match', src=box, tgt=self.tgt, format=form).body
+        vertices, faces = result_files.read_ply(get('ply'))
+        self.assertEqual(faces, [list(face) for face in quads + [(8, 9, 10)]])
+        self.assertEqual([math.isnan(v['tx']) for v in vertices], [False] * 8 + [True] * 3)
+        self.assertEqual({(v['red'], v['green'], v['blue']) for v in vertices[8:]}, {(128, 128, 128)})
+        self.assertEqual(result_files.read_obj(get('obj'))[1], faces)
+        _, _, rgba, triangles = result_files.read_glb(get('glb'))
+        self.assertEqual((len(rgba), len(triangles)), (11, 13))
+        self.assertEqual(set(rgba[8:]), {(128, 128, 128, 255)})
+        self.assertEqual(result_files.read_png(get('png'))[0], 1200)
+
+    def test_the_picture_shows_both_shapes_in_the_same_colours(self):
+        picture = self.match(format='png')
+        self.assertEqual(picture.headers['Content-Type'], 'image/png')
+        width, height, rows = result_files.read_png(picture.body)
+        self.assertEqual((width, height), (1200, 600))
+
+        def colours(start):
+            """The colours, coarsely, with the number of their pixels; without the background."""
+            counts = {}
+            for row in rows:
+                for x in range(start, start + 600):
+                    colour = tuple(c // 32 for c in row[3 * x:3 * x + 3])
+                    counts[colour] = counts.get(colour, 0) + 1
+            del counts[(7, 7, 7)]
+            return counts
+
+        left, right = colours(0), colours(600)
+        for side in (left, right):
+            self.assertGreater(sum(side.values()), 0.1 * 600 * 600)
+            self.assertGreater(len(side), 20)
+        shared = sum(min(count, right.get(colour, 0)) for colour, count in left.items())
+        self.assertGreater(shared, 0.7 * min(sum(left.values()), sum(right.values())))
+
     def test_the_accept_header_negotiates(self):
         self.assertEqual(self.match(headers={'Accept': 'text/plain'}).headers['Content-Type'], 'text/plain')
         self.assertEqual(self.match(headers={'Accept': 'application/x-npz;q=0.5, application/x-npy'}).headers['Content-Type'],
                          'application/x-npy')
         self.assertEqual(self.match(headers={'Accept': 'text/html,*/*;q=0.8'}).headers['Content-Type'], 'application/json')
-        problem = self.assert_problem(self.match(headers={'Accept': 'image/png'}), 406, 'not-acceptable')
+        problem = self.assert_problem(self.match(headers={'Accept': 'image/gif'}), 406, 'not-acceptable')
         self.assertIn('application/x-npz', problem['detail'])
-        self.assertEqual(self.match(headers={'Accept': 'image/png'}, format='txt').status, 200)
+        self.assertEqual(self.match(headers={'Accept': 'image/gif'}, format='txt').status, 200)
+        self.assertEqual(self.match(headers={'Accept': 'model/*'}).headers['Content-Type'], 'model/gltf-binary')
+        # What a browser sends for an <img>.
+        self.assertEqual(self.match(headers={'Accept': 'image/avif,image/webp,image/*,*/*;q=0.8'}).headers['Content-Type'], 'image/png')
 
     def test_parameters_are_checked(self):
         for wrong in ({'bogus': '1'}, {'format': 'exe'}, {'fields': 'x'}, {'wait': 'x'}, {'cache': 'x'}, {'method': 'x'}):
@@ -96,7 +170,7 @@ class MatchTest(support.TestCase):
             self.assertAlmostEqual(math.hypot(*row), 1, places=9)
 
     def test_the_same_bytes_again_after_a_restart_and_with_another_thread_count(self):
-        formats = ('npz', 'npy', 'txt')
+        formats = ('npz', 'npy', 'txt', 'ply', 'glb', 'obj', 'png')
         fields = 'vertex,corners,bary'
 
         def stable(server):

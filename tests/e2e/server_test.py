@@ -50,29 +50,61 @@ class ServerTest(support.TestCase):
     def test_concurrent_uploads_compute_once(self):
         body = support.off(support.bumpy(2, 0.7))
         responses = []
-        threads = [threading.Thread(target=lambda: responses.append(self.server.post(body, wait=60))) for _ in range(4)]
+        threads = [threading.Thread(target=lambda: responses.append(self.server.post(body, wait=60))) for _ in range(16)]
         for thread in threads:
             thread.start()
         for thread in threads:
             thread.join()
         self.assertEqual({r.json()['state'] for r in responses}, {'ready'})
-        self.assertEqual(sorted(r.status for r in responses), [200, 200, 200, 201])
+        self.assertEqual(sorted(r.status for r in responses), [200] * 15 + [201])
         self.assertEqual(len({json.dumps(r.json()) for r in responses}), 1)
         started = [line for line in self.server.log if 'job_started' in line and responses[0].json()['id'] in line]
         self.assertEqual(len(started), 1, started)
 
+    def test_the_queue_of_preparations_is_bounded(self):
+        server = self.serve(self.directory() + '/s.db', '--max-queued-jobs', '2')
+        running = server.post(support.off(support.bumpy(5))).json()['id']
+        deadline = time.monotonic() + 20
+        while server.get('/healthz').json()['jobs_processing'] != 1 and time.monotonic() < deadline:
+            time.sleep(0.01)
+        queued = [support.off(support.bumpy(1, 0.1 * i)) for i in range(3)]
+        self.assertEqual([server.post(body).status for body in queued[:2]], [202, 202])
+        refused = server.post(queued[2], wait=1)
+        problem = self.assert_problem(refused, 503, 'overloaded')
+        self.assertIs(problem['retryable'], True)
+        self.assertGreater(int(refused.headers['Retry-After']), 0)
+        self.assertEqual(server.post(queued[1]).status, 200)  # a known one needs no place
+        self.assertEqual(len(server.get('/shapes').json()['items']), 3)
+        # All at once are not let in either, but for those that were asked while there was room.
+        statuses = []
+        self.assertEqual(server.request('DELETE', '/shapes/' + server.get('/shapes').json()['items'][0]['id']).status, 204)
+        threads = [threading.Thread(target=lambda i=i: statuses.append(server.post(support.off(support.bumpy(1, 3 + i))).status))
+                   for i in range(12)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertLessEqual(set(statuses), {202, 503})
+        self.assertLessEqual(1, statuses.count(202))
+        self.assertLessEqual(statuses.count(202), 4)  # --concurrent-uploads
+        self.assertEqual(server.request('DELETE', '/shapes/' + running).status, 204)
+        self.assertEqual(server.finished(server.get('/shapes').json()['items'][0]['id'])['state'], 'ready')
+        self.assertEqual(server.stop(), 0)
+
     def test_progress_is_visible_and_never_falls(self):
         shape = self.server.post(support.off(support.bumpy(4, 0.5))).json()
         self.assertIn(shape['state'], ('queued', 'processing'))
-        seen = []
+        seen, states = [], []
         while shape['state'] in ('queued', 'processing'):
             if not seen or seen[-1] != (shape['stage'], shape['progress']):
                 seen.append((shape['stage'], shape['progress']))
+            states.append(shape['state'])
             time.sleep(0.02)
             shape = self.server.get('/shapes/' + shape['id']).json()
         self.assertEqual(shape['state'], 'ready', shape)
         progress = [p for _, p in seen]
         self.assertEqual(progress, sorted(progress))
+        self.assertEqual(states, sorted(states, reverse=True))  # queued, then processing
         self.assertGreaterEqual(len({stage for stage, _ in seen if stage}), 2, seen)
         self.assertGreaterEqual(len(set(progress)), 3, seen)
 

@@ -1,4 +1,5 @@
 """What the end-to-end tests share: meshes, a server process, requests, and readers of the result formats."""
+import contextlib
 import http.client
 import io
 import json
@@ -80,7 +81,7 @@ def torus(n=24, m=12):
 def off(mesh):
     vertices, faces = mesh
     lines = ['OFF', f'{len(vertices)} {len(faces)} 0']
-    lines += ['%.9g %.9g %.9g' % p for p in vertices] + ['%d %s' % (len(f), ' '.join(map(str, f))) for f in faces]
+    lines += ['%.17g %.17g %.17g' % p for p in vertices] + ['%d %s' % (len(f), ' '.join(map(str, f))) for f in faces]
     return ('\n'.join(lines) + '\n').encode()
 
 
@@ -154,13 +155,35 @@ class Server:
 
     def ready(self, body, **query):
         """Uploads, waits, returns the id."""
-        shape = self.post(body, wait=60, **query).json()
-        deadline = time.monotonic() + 120
-        while shape['state'] in ('queued', 'processing') and time.monotonic() < deadline:
-            time.sleep(0.1)
-            shape = self.get('/shapes/' + shape['id']).json()
+        shape = self.finished(self.post(body, wait=60, **query).json()['id'])
         assert shape['state'] == 'ready', shape
         return shape['id']
+
+    def finished(self, shape_id):
+        """Waits; returns the shape."""
+        deadline = time.monotonic() + 120
+        shape = self.get('/shapes/' + shape_id).json()
+        while shape['state'] in ('queued', 'processing') and time.monotonic() < deadline:
+            time.sleep(0.1)
+            shape = self.get('/shapes/' + shape_id).json()
+        return shape
+
+    def all_shapes(self):
+        page = self.get('/shapes', limit=200).json()
+        shapes = page['items']
+        while page['next_cursor']:
+            page = self.get('/shapes', limit=200, cursor=page['next_cursor']).json()
+            shapes += page['items']
+        return shapes
+
+    def preparations(self):
+        """The ids of the processes in which the server prepares shapes now."""
+        with open(f'/proc/{self.process.pid}/task/{self.process.pid}/children') as file:
+            children = file.read().split()
+        for task in os.listdir(f'/proc/{self.process.pid}/task'):
+            with contextlib.suppress(OSError), open(f'/proc/{self.process.pid}/task/{task}/children') as file:
+                children += file.read().split()
+        return sorted(set(map(int, children)))
 
     def stop(self, how=signal.SIGTERM):
         if self.process.poll() is None:

@@ -30,7 +30,7 @@ ARROWS = {
 UNRESTRICTED = ("tests", "bench", "samples")
 
 STANDARD = re.compile(r"[a-z_]+")
-SYSTEM = re.compile(r"(sys|netinet|arpa)/\w+\.h|(fcntl|immintrin|netdb|poll|pthread|sched|signal|unistd)\.h")
+SYSTEM = re.compile(r"(sys|netinet|arpa)/\w+\.h|(fcntl|immintrin|malloc|netdb|poll|pthread|sched|signal|spawn|unistd)\.h")
 
 
 @dataclass(frozen=True)
@@ -54,6 +54,7 @@ LIBRARIES = (
     Library("xxHash", r"xxhash\.h", ("storage",)),
     Library("tinygltf", r"tiny_gltf\.h", ("engine/io",)),
     Library("libzip", r"zip\.h", ("engine/io",)),
+    Library("libpng", r"png\.h", ("engine/io",)),
     # Two tools of one box: mesh repair, and exact predicates on the sphere.
     Library("CGAL", r"CGAL/.*|boost/.*", ("engine/mesh", "engine/sphere"), toolbox=True),
     Library("Spectra", r"Spectra/.*", ("engine",)),

@@ -55,6 +55,12 @@ class HttpServerTest : public ::testing::Test {
     if (server) server->stop();
     if (thread.joinable()) thread.join();
   }
+  /// A connection on which some bytes were sent.
+  [[nodiscard]] int spoken(const std::string& text) const {
+    const int socket = connected();
+    (void)!::send(socket, text.data(), text.size(), MSG_NOSIGNAL);
+    return socket;
+  }
   [[nodiscard]] httplib::Client client() const { return httplib::Client("127.0.0.1", port); }
 
   /// Sends bytes as they are, and returns everything that comes back until the server closes.
@@ -260,6 +266,64 @@ TEST_F(HttpServerTest, BeyondItsThreadsAndQueueConnectionsAreShed) {
   EXPECT_EQ(status_of(received(first)), 200);
   EXPECT_EQ(status_of(received(second)), 200);
   EXPECT_EQ(status_of(raw("GET /hello HTTP/1.1\r\n\r\n")), 200);
+}
+
+TEST_F(HttpServerTest, SilentAndSlowConnectionsTakeNoThread) {
+  start({.max_body_bytes = max_body, .threads = 2, .max_connections = 2});
+  std::vector<int> idle;
+  for (int i = 0; i < 100; ++i) idle.push_back(spoken(i % 2 == 0 ? "" : "GET /hello HTTP/1.1\r\nA: b\r\n"));
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(status_of(raw("GET /hello HTTP/1.1\r\n\r\n")), 200);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+  // They are not forgotten either: who completes its request is served.
+  (void)!::send(idle[1], "\r\n", 2, MSG_NOSIGNAL);
+  EXPECT_EQ(status_of(received(idle[1])), 200);
+  for (std::size_t i = 0; i < idle.size(); ++i) {
+    if (i != 1) ::close(idle[i]);
+  }
+}
+
+TEST_F(HttpServerTest, AHeadThatDoesNotEndInTimeIsAnswered) {
+  start({.max_body_bytes = max_body, .threads = 2, .lobby = {.patience = std::chrono::milliseconds(100)}});
+  EXPECT_EQ(problem_of_raw(received(spoken("GET /hello HTTP/1.1\r\n"))).code, api::Code::bad_request);
+  EXPECT_EQ(received(spoken("")), "");
+}
+
+TEST_F(HttpServerTest, HalfSentBodiesLeaveRoomForWholeOnes) {
+  start({.max_body_bytes = max_body, .threads = 12, .max_connections = 8, .receiving_uploads = 8});
+  const std::string head = "POST /upload HTTP/1.1\r\nContent-Length: 100\r\n\r\n";
+  std::vector<int> half;
+  for (int i = 0; i < 7; ++i) half.push_back(spoken(head + "abc"));  // more than the two that may be worked on
+  EXPECT_EQ(status_of(raw(head + std::string(100, 'x'))), 200);
+  half.push_back(spoken(head + "abc"));
+  // Now all places are taken, and that is said rather than waited for.
+  int status = 0;
+  for (int i = 0; i < 100 && status != 503; ++i) {
+    const std::string refused = raw(head + std::string(100, 'x'));
+    status = status_of(refused);
+    if (status == 503) {
+      EXPECT_EQ(problem_of_raw(refused).code, api::Code::overloaded);
+    }
+  }
+  EXPECT_EQ(status, 503);
+  EXPECT_EQ(status_of(raw("GET /hello HTTP/1.1\r\n\r\n")), 200);
+  for (const int socket : half) ::close(socket);
+}
+
+TEST_F(HttpServerTest, BodiesShareTheirMemory) {
+  start({.max_body_bytes = max_body, .threads = 8, .upload_memory = 150'000});
+  const std::string head = "POST /upload HTTP/1.1\r\nContent-Length: 120000\r\n\r\n";
+  EXPECT_EQ(status_of(raw(head + std::string(120'000, 'x'))), 200);
+  const int half = spoken(head + std::string(100'000, 'x'));
+  int status = 0;
+  for (int i = 0; i < 100 && status != 503; ++i) status = status_of(raw(head + std::string(120'000, 'x')));
+  EXPECT_EQ(status, 503);
+  ::close(half);
+  for (int i = 0; i < 500 && status != 200; ++i) {
+    status = status_of(raw(head + std::string(120'000, 'x')));
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_EQ(status, 200);  // given back
 }
 
 TEST_F(HttpServerTest, StoppingDoesNotWaitForIdleConnections) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <latch>
@@ -12,15 +13,17 @@ namespace {
 
 using namespace std::chrono_literals;
 using Clock = JobRunner::Clock;
+using Outcome = JobRunner::Outcome;
 using Submitted = JobRunner::Submitted;
 
 /// Blocks every job until open() or until it is asked to stop.
 class Door {
  public:
-  void pass(const Progress& progress) {
+  Outcome pass(const Progress& progress) {
     ++arrived_;
     while (!open_ && !progress.stop.stop_requested()) std::this_thread::sleep_for(1ms);
     if (!open_) ++stopped_;
+    return Outcome::done;
   }
   void open() { open_ = true; }
   void wait_for_arrivals(int count) const {
@@ -42,6 +45,7 @@ TEST(JobRunner, RunsEachJobOnceAndWakesWaiters) {
       [&](const std::string& key, const Progress&) {
         const std::lock_guard lock(mutex);
         ran.insert(key);
+        return Outcome::done;
       },
       3, 100);
   for (int i = 0; i < 50; ++i) EXPECT_EQ(runner.submit(std::to_string(i)), Submitted::queued);
@@ -53,7 +57,7 @@ TEST(JobRunner, RunsEachJobOnceAndWakesWaiters) {
 
 TEST(JobRunner, OneActiveJobPerKey) {
   Door door;
-  JobRunner runner([&](const std::string&, const Progress& progress) { door.pass(progress); }, 1, 10);
+  JobRunner runner([&](const std::string&, const Progress& progress) { return door.pass(progress); }, 1, 10);
   EXPECT_EQ(runner.submit("a"), Submitted::queued);
   door.wait_for_arrivals(1);
   EXPECT_EQ(runner.submit("a"), Submitted::already_active);
@@ -67,7 +71,7 @@ TEST(JobRunner, OneActiveJobPerKey) {
 
 TEST(JobRunner, TheQueueIsBounded) {
   Door door;
-  JobRunner runner([&](const std::string&, const Progress& progress) { door.pass(progress); }, 1, 2);
+  JobRunner runner([&](const std::string&, const Progress& progress) { return door.pass(progress); }, 1, 2);
   EXPECT_EQ(runner.submit("running"), Submitted::queued);
   door.wait_for_arrivals(1);
   EXPECT_EQ(runner.submit("a"), Submitted::queued);
@@ -89,7 +93,7 @@ TEST(JobRunner, ProgressIsVisibleAndNeverFalls) {
         progress.report("first", 0.5);
         progress.report("second", 0.25);
         progress.report("second", std::nan(""));
-        door.pass(progress);
+        return door.pass(progress);
       },
       1, 10);
   runner.submit("a");
@@ -105,7 +109,7 @@ TEST(JobRunner, ProgressIsVisibleAndNeverFalls) {
 
 TEST(JobRunner, CancellingARunningJobFreesItsKeyAtOnce) {
   Door door;
-  JobRunner runner([&](const std::string&, const Progress& progress) { door.pass(progress); }, 1, 10);
+  JobRunner runner([&](const std::string&, const Progress& progress) { return door.pass(progress); }, 1, 10);
   runner.submit("a");
   door.wait_for_arrivals(1);
   runner.cancel("a");
@@ -121,7 +125,7 @@ TEST(JobRunner, CancellingARunningJobFreesItsKeyAtOnce) {
 
 TEST(JobRunner, ACancelledQueuedJobNeverRuns) {
   Door door;
-  JobRunner runner([&](const std::string&, const Progress& progress) { door.pass(progress); }, 1, 10);
+  JobRunner runner([&](const std::string&, const Progress& progress) { return door.pass(progress); }, 1, 10);
   runner.submit("running");
   door.wait_for_arrivals(1);
   runner.submit("a");
@@ -133,9 +137,56 @@ TEST(JobRunner, ACancelledQueuedJobNeverRuns) {
   EXPECT_EQ(door.arrived(), 1);
 }
 
+TEST(JobRunner, ARepeatedJobGoesBehindTheOthersAndStaysStarted) {
+  Door door;
+  std::vector<std::string> order;  // by the one worker
+  std::vector<JobStatus> seen;     // of "a", whenever something runs
+  const JobRunner* self = nullptr;
+  JobRunner runner(
+      [&](const std::string& key, const Progress& progress) {
+        door.pass(progress);
+        order.push_back(key);
+        progress.report("stage", order.size() == 1 ? 0.75 : 0.25);
+        seen.push_back(self->status("a").value_or(JobStatus{}));
+        return key == "a" && std::count(order.begin(), order.end(), key) < 3 ? Outcome::again : Outcome::done;
+      },
+      1, 10);
+  self = &runner;
+  runner.submit("a");
+  door.wait_for_arrivals(1);
+  runner.submit("b");
+  runner.submit("c");
+  door.open();
+  EXPECT_TRUE(runner.wait("c", Clock::now() + 10s));
+  EXPECT_TRUE(runner.wait("a", Clock::now() + 10s));
+  EXPECT_EQ(order, (std::vector<std::string>{"a", "b", "c", "a", "a"}));
+  for (const JobStatus& status : seen) {
+    EXPECT_TRUE(status.running);
+    EXPECT_EQ(status.progress, 0.75);
+  }
+}
+
+TEST(JobRunner, ACancelledJobIsNotRepeated) {
+  std::atomic<int> runs = 0;
+  JobRunner runner(
+      [&](const std::string& key, const Progress& progress) {
+        if (key == "a") ++runs;
+        while (key == "a" && !progress.stop.stop_requested()) std::this_thread::sleep_for(1ms);
+        return key == "a" ? Outcome::again : Outcome::done;
+      },
+      1, 10);
+  runner.submit("a");
+  while (runs < 1) std::this_thread::yield();
+  runner.cancel("a");
+  runner.submit("b");
+  EXPECT_TRUE(runner.wait("b", Clock::now() + 10s));
+  EXPECT_EQ(runs, 1);
+  EXPECT_EQ(runner.status("a"), std::nullopt);
+}
+
 TEST(JobRunner, StopCancelsJobsAndWakesWaiters) {
   Door door;
-  JobRunner runner([&](const std::string&, const Progress& progress) { door.pass(progress); }, 2, 10);
+  JobRunner runner([&](const std::string&, const Progress& progress) { return door.pass(progress); }, 2, 10);
   for (const char* key : {"a", "b", "c"}) runner.submit(key);
   door.wait_for_arrivals(2);
   bool finished = true;

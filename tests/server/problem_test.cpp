@@ -15,9 +15,11 @@ ProblemError described(const Error& error) {
   return problem_of(std::make_exception_ptr(error));
 }
 
-constexpr std::array<std::pair<ErrorCode, std::string_view>, 12> engine_codes{{
+constexpr std::array<std::pair<ErrorCode, std::string_view>, 14> engine_codes{{
     {ErrorCode::malformed_mesh, "malformed-mesh"},
     {ErrorCode::unsupported_format, "unsupported-format"},
+    {ErrorCode::compressed_geometry, "compressed-geometry"},
+    {ErrorCode::external_reference, "external-reference"},
     {ErrorCode::too_many_vertices, "too-many-vertices"},
     {ErrorCode::degenerate, "degenerate"},
     {ErrorCode::non_manifold, "non-manifold"},

@@ -27,32 +27,58 @@ TEST_F(RoutesMatch, JsonCarriesTheSelectedFields) {
   EXPECT_EQ(result.tgt, tgt);
   EXPECT_EQ(result.n_src, 5);
   EXPECT_EQ(result.n_tgt, 5);
-  EXPECT_EQ(*result.vertex, (std::vector<std::int32_t>{1, 2, 3, 4, 0}));
+  EXPECT_EQ(*result.vertex, (std::vector<std::int32_t>{1, 2, 3, 0, -1}));
   EXPECT_FALSE(result.corners || result.bary);
   EXPECT_FALSE(result.cached);
   EXPECT_EQ(result.engine, "stub-1");
 
   const auto whole = api::from_text<api::Match>(match({{"fields", "vertex,corners,bary"}}).body);
   EXPECT_EQ(whole.corners->at(0), (std::array<std::int32_t, 3>{1, 0, 1}));
-  EXPECT_EQ(whole.bary->at(4), (std::array<float, 3>{0.5F, 0.3F, 0.2F}));
+  EXPECT_EQ(whole.bary->at(3), (std::array<float, 3>{0.5F, 0.3F, 0.2F}));
 }
 
 TEST_F(RoutesMatch, EveryRepresentationByParameterAndByHeader) {
-  for (const auto& [format, type] :
-       {std::pair{"json", "application/json"}, {"npz", "application/x-npz"}, {"npy", "application/x-npy"}, {"txt", "text/plain"}}) {
+  for (const auto& [format, type] : {std::pair{"json", "application/json"},
+                                     {"npz", "application/x-npz"},
+                                     {"npy", "application/x-npy"},
+                                     {"txt", "text/plain"},
+                                     {"ply", "application/x-ply"},
+                                     {"glb", "model/gltf-binary"},
+                                     {"obj", "model/obj"},
+                                     {"png", "image/png"}}) {
     const HttpResponse by_parameter = match({{"format", format}});
     const HttpResponse by_header = match({}, {{"accept", type}});
     EXPECT_EQ(by_parameter.content_type, type);
     EXPECT_EQ(by_parameter.body, by_header.body);
+    EXPECT_EQ(by_parameter.status, 200) << format;
     EXPECT_EQ(header(by_parameter, "ETag"), header(by_header, "ETag"));
     EXPECT_EQ(header(by_parameter, "Vary"), "Accept");
   }
-  EXPECT_EQ(match({{"format", "txt"}}).body, "1\n2\n3\n4\n0\n");
+  EXPECT_EQ(match({{"format", "txt"}}).body, "1\n2\n3\n0\n-1\n");
   EXPECT_EQ(match({{"format", "npz"}}).body.substr(0, 2), "PK");
   std::int32_t vertex[5];
   const std::string npy = match({{"format", "npy"}}).body;
   std::memcpy(vertex, npy.data() + npy.size() - sizeof vertex, sizeof vertex);
-  EXPECT_EQ(vertex[3], 4);
+  EXPECT_EQ(vertex[2], 3);
+}
+
+TEST_F(RoutesMatch, MeshesAreTheUploadedSourceInTheColorsOfItsImages) {
+  const std::string obj = match({{"format", "obj"}}).body;
+  // Vertex 0 goes to 0.5 v1 + 0.3 v0 + 0.2 v1 of the tetrahedron, vertex 4 was dropped.
+  EXPECT_NE(obj.find("\nv 1 1 1 1.0000 0.3020 0.3020\n"), std::string::npos) << obj;
+  EXPECT_NE(obj.find("\nv 0 0 0 0.5020 0.5020 0.5020\n"), std::string::npos) << obj;
+  EXPECT_NE(obj.find("\nf 2 4 3\n"), std::string::npos) << obj;
+  EXPECT_TRUE(match({{"format", "ply"}}).body.starts_with("ply\n"));
+  EXPECT_TRUE(match({{"format", "glb"}}).body.starts_with("glTF"));
+  EXPECT_TRUE(match({{"format", "png"}}).body.starts_with("\x89PNG"));
+}
+
+TEST_F(RoutesMatch, AShapeRemovedDuringTheMatchDoesNotSpoilItsMesh) {
+  engine.hold_matches = true;
+  std::jthread client([this] { EXPECT_EQ(match({{"format", "ply"}}).status, 200); });
+  while (engine.matches < 1) std::this_thread::yield();
+  EXPECT_EQ(remove(src).status, 204);
+  engine.hold_matches = false;
 }
 
 TEST_F(RoutesMatch, ParametersAreChecked) {
@@ -60,11 +86,13 @@ TEST_F(RoutesMatch, ParametersAreChecked) {
   EXPECT_NE(match({{"bogus", "1"}}).body.find("src, tgt, format, fields, wait, cache, method"), std::string::npos);
   EXPECT_EQ(problem_code(match({{"format", "exe"}})), api::Code::invalid_parameter);
   EXPECT_EQ(problem_code(match({{"fields", "faces"}})), api::Code::invalid_parameter);
-  EXPECT_EQ(problem_code(match({{"fields", "vertex"}, {"format", "npz"}})), api::Code::invalid_parameter);
+  EXPECT_NE(match({{"format", "exe"}}).body.find("json, npz, npy, txt, ply, glb, obj, png"), std::string::npos);
+  for (const char* format : {"npz", "ply", "glb", "obj", "png"})
+    EXPECT_EQ(problem_code(match({{"fields", "vertex"}, {"format", format}})), api::Code::invalid_parameter);
   EXPECT_EQ(problem_code(match({{"cache", "maybe"}})), api::Code::invalid_parameter);
   EXPECT_EQ(problem_code(match({{"method", "best"}})), api::Code::invalid_parameter);
   EXPECT_EQ(problem_code(match({{"wait", "-1"}})), api::Code::invalid_parameter);
-  EXPECT_EQ(problem_code(match({}, {{"accept", "image/png"}})), api::Code::not_acceptable);
+  EXPECT_EQ(problem_code(match({}, {{"accept", "image/gif"}})), api::Code::not_acceptable);
   EXPECT_EQ(problem_code(get("/match", {{"src", src}})), api::Code::invalid_parameter);
   EXPECT_EQ(problem_code(get("/match", {{"src", src}, {"tgt", std::string(32, '0')}})), api::Code::not_found);
   EXPECT_EQ(engine.matches, 0);

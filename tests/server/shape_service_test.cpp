@@ -26,7 +26,7 @@ TEST_F(ShapeServiceTest, ConcurrentUploadsOfTheSameBytesComputeOnce) {
   std::atomic<int> created = 0;
   {
     std::vector<std::jthread> threads;
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < 16; ++i) {
       threads.emplace_back([&] {
         const HttpResponse response = post("sphere 1");
         EXPECT_EQ(shape(response).state, api::ShapeState::ready);
@@ -36,6 +36,102 @@ TEST_F(ShapeServiceTest, ConcurrentUploadsOfTheSameBytesComputeOnce) {
   }
   EXPECT_EQ(created, 1);
   EXPECT_EQ(engine.preparations, 1);
+}
+
+TEST_F(ShapeServiceTest, ALostPreparationIsTriedAgain) {
+  engine.lose_next = 2;
+  EXPECT_EQ(shape(post("sphere 1")).state, api::ShapeState::ready);
+  EXPECT_EQ(engine.preparations, 3);
+}
+
+TEST_F(ShapeServiceTest, AThirdLossIsAFailureWithItsReason) {
+  engine.lose_next = 3;
+  const api::Shape lost = shape(post("sphere 1"));
+  EXPECT_EQ(lost.state, api::ShapeState::failed);
+  ASSERT_TRUE(lost.error);
+  EXPECT_EQ(lost.error->code, api::Code::internal);
+  EXPECT_NE(lost.error->detail.find("signal 11"), std::string::npos);
+  EXPECT_EQ(engine.preparations, 3);
+  stop();
+  start();
+  EXPECT_EQ(shapes->get(lost.id).state, api::ShapeState::failed);
+  // Who uploads it again starts from the beginning.
+  engine.lose_next = 2;
+  const HttpResponse again = post("sphere 1");
+  EXPECT_EQ(again.status, 201);
+  EXPECT_EQ(engine.preparations, 6);
+}
+
+TEST_F(ShapeServiceTest, LossesAreCountedAcrossRestartsAndRestartsAreNone) {
+  engine.lose_next = 2;
+  engine.hold_preparation = true;
+  const std::string id = shape(post("sphere 1", {})).id;
+  wait_for_preparations(3);
+  for (int restart = 0; restart < 4; ++restart) {
+    stop();
+    start();
+    wait_for_preparations(4 + restart);
+    EXPECT_EQ(shapes->get(id).state, api::ShapeState::processing);
+  }
+  stop();
+  engine.lose_next = 1;
+  start();
+  EXPECT_TRUE(shapes->wait_until_finished(id, ShapeService::Clock::now() + 10s));
+  EXPECT_EQ(shapes->get(id).state, api::ShapeState::failed);
+}
+
+TEST_F(ShapeServiceTest, WantOfMemoryIsAFailureOnlyWhenItLasts) {
+  engine.no_memory = true;
+  const api::Shape poor = shape(post("sphere 1"));
+  EXPECT_EQ(poor.state, api::ShapeState::failed);
+  ASSERT_TRUE(poor.error);
+  EXPECT_EQ(poor.error->code, api::Code::overloaded);
+  EXPECT_EQ(engine.preparations, 3);
+  engine.no_memory = false;
+  EXPECT_EQ(post("sphere 1").status, 201);
+}
+
+TEST_F(ShapeServiceTest, WhatEndedAServerDoesNotKeepTheNextFromTheOthers) {
+  engine.hold_preparation = true;
+  const std::string first = shape(post("sphere 1", {})).id;
+  const std::string second = shape(post("sphere 2", {})).id;
+  wait_for_preparations(1);
+  stop();
+  start();
+  wait_for_preparations(2);
+  EXPECT_EQ(shapes->get(second).state, api::ShapeState::processing);
+  EXPECT_EQ(shapes->get(first).state, api::ShapeState::queued);
+  engine.hold_preparation = false;
+  EXPECT_TRUE(shapes->wait_until_finished(first, ShapeService::Clock::now() + 10s));
+  EXPECT_EQ(shapes->get(first).state, api::ShapeState::ready);
+}
+
+TEST_F(ShapeServiceTest, UploadsAndRemovalsAtOnceLeaveNoShapeWithoutAJob) {
+  std::atomic<bool> done = false;
+  {
+    std::jthread remover([&] {
+      while (!done) {
+        for (const api::Shape& item : shapes->list(10, std::nullopt).items) (void)remove(item.id);
+      }
+    });
+    std::vector<std::jthread> posters;
+    for (int i = 0; i < 4; ++i) {
+      posters.emplace_back([&] {
+        for (int round = 0; round < 100; ++round) {
+          const int status = post("sphere 1", {}).status;
+          EXPECT_TRUE(status < 300 || status == 404) << status;  // 404: removed before its answer was made
+        }
+      });
+    }
+    posters.clear();
+    done = true;
+  }
+  // Whatever the last of them left is ready, or becomes it without being asked.
+  for (const api::Shape& item : shapes->list(10, std::nullopt).items) {
+    const auto deadline = ShapeService::Clock::now() + 10s;
+    while (shapes->get(item.id).state != api::ShapeState::ready && ShapeService::Clock::now() < deadline) std::this_thread::sleep_for(1ms);
+    EXPECT_EQ(shapes->get(item.id).state, api::ShapeState::ready);
+  }
 }
 
 TEST_F(ShapeServiceTest, UnfinishedShapesAreTakenUpAgainAfterARestart) {
@@ -91,6 +187,21 @@ TEST_F(ShapeServiceTest, AFullQueueRefusesUploadsBeforeStoringThem) {
   EXPECT_EQ(problem_code(third), api::Code::overloaded);
   EXPECT_EQ(engine.reads, 2);
   EXPECT_EQ(shapes->list(10, std::nullopt).items.size(), 2U);
+}
+
+TEST_F(ShapeServiceTest, AFullQueueLeavesAFailedShapeAsItIs) {
+  stop();
+  start({.workers = 1, .max_queued = 1, .read_limits = {}});
+  const std::string id = shape(post("sphere hopeless")).id;
+  engine.hold_preparation = true;
+  post("sphere 1", {});
+  wait_for_preparations(2);
+  post("sphere 2", {});
+  EXPECT_EQ(problem_code(post("sphere hopeless")), api::Code::overloaded);
+  EXPECT_EQ(shapes->get(id).state, api::ShapeState::failed);
+  // A known one needs no place of its own.
+  EXPECT_EQ(post("sphere 2", {}).status, 200);
+  engine.hold_preparation = false;
 }
 
 TEST_F(ShapeServiceTest, LongPollsAreBounded) {

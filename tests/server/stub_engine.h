@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <new>
 #include <string>
 #include <thread>
 
@@ -19,6 +20,8 @@ class StubEngine final : public EnginePort {
   std::atomic<int> reads = 0;
   std::atomic<int> preparations = 0;  ///< started
   std::atomic<int> cancellations = 0;
+  std::atomic<int> lose_next = 0;  ///< so many preparations end as if their process had crashed
+  std::atomic<bool> no_memory = false;
   mutable std::atomic<int> matches = 0;  ///< started
   std::string version_text = "stub-1";
 
@@ -36,10 +39,27 @@ class StubEngine final : public EnginePort {
     return tetrahedron(repair, text.find("hopeless") != std::string_view::npos);
   }
 
+  [[nodiscard]] PolygonMesh read_mesh(std::span<const std::byte> bytes, std::string_view name) const override {
+    const Surface surface = read_surface(bytes, name, RepairMode::fill, {});
+    PolygonMesh mesh;
+    mesh.vertices.setZero(surface.uploaded_vertices(), 3);
+    mesh.vertices.topRows(surface.mesh.vertex_count()) = surface.mesh.vertices;
+    for (Eigen::Index f = 0; f < surface.mesh.face_count(); ++f) {
+      for (const std::int32_t corner : surface.uploaded_corners.row(f)) mesh.indices.push_back(corner);
+      mesh.offsets.push_back(static_cast<std::int32_t>(mesh.indices.size()));
+    }
+    return mesh;
+  }
+
   [[nodiscard]] PreprocessedShape preprocess(Surface surface, const Progress& progress) const override {
     auto& self = *const_cast<StubEngine*>(this);
     ++self.preparations;
     progress.report("conformal", 0.25);
+    if (self.lose_next > 0) {
+      --self.lose_next;
+      throw PreparationLost("its process was ended by signal 11");
+    }
+    if (no_memory) throw std::bad_alloc();
     try {
       while (hold_preparation) {
         progress.check();
@@ -70,10 +90,12 @@ class StubEngine final : public EnginePort {
     }
     const std::int32_t n = source.surface.uploaded_vertices();
     MatchResult result;
-    result.map.corners.resize(n, 3);
-    result.map.bary.resize(n, 3);
+    result.map.corners.setConstant(n, 3, -1);
+    result.map.bary.setZero(n, 3);
     for (std::int32_t i = 0; i < n; ++i) {
-      result.map.vertex.push_back((i + 1) % target.surface.uploaded_vertices());
+      const bool dropped = source.surface.surface_vertex[static_cast<std::size_t>(i)] < 0;
+      result.map.vertex.push_back(dropped ? -1 : (i + 1) % static_cast<std::int32_t>(target.surface.mesh.vertex_count()));
+      if (dropped) continue;
       result.map.corners.row(i) << result.map.vertex.back(), 0, 1;
       result.map.bary.row(i) << 0.5F, 0.3F, 0.2F;
     }

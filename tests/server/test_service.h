@@ -31,6 +31,7 @@ class TestService : public ::testing::Test {
   }
 
   void start(ShapeServiceSettings settings = {}) {
+    settings.pause_after_loss = std::chrono::milliseconds(0);
     stop_source = std::stop_source();
     store = std::make_unique<ShapeStore>(directory / "store.db");
     shapes = std::make_unique<ShapeService>(*store, engine, settings);

@@ -61,6 +61,59 @@ TEST(Schema, OpensItsOwnFileAgain) {
   testing::expect_holds(store, upload);
 }
 
+/// The file as the first release wrote it, with a ready, a processing and a failed shape.
+void make_first_schema(const std::filesystem::path& path) {
+  SQLite::Database database(path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  database.exec("PRAGMA page_size = 16384");
+  database.exec("PRAGMA journal_mode = WAL");
+  database.exec(R"sql(
+CREATE TABLE shapes (
+  sequence INTEGER PRIMARY KEY AUTOINCREMENT, id TEXT NOT NULL UNIQUE, name TEXT NOT NULL, sha256 TEXT NOT NULL, options TEXT NOT NULL,
+  state TEXT NOT NULL CHECK (state IN ('queued', 'processing', 'ready', 'failed')), vertices INTEGER NOT NULL, faces INTEGER NOT NULL,
+  filled_loops INTEGER NOT NULL, added_vertices INTEGER NOT NULL, added_faces INTEGER NOT NULL, dropped_vertices INTEGER NOT NULL,
+  welded_vertices INTEGER NOT NULL, split_vertices INTEGER NOT NULL, flipped_faces INTEGER NOT NULL, removed_faces INTEGER NOT NULL,
+  dropped_components INTEGER NOT NULL, sphere_flipped INTEGER, solid_angle_defect REAL, area_distortion REAL,
+  engine TEXT NOT NULL DEFAULT '', error_code TEXT NOT NULL DEFAULT '', error_detail TEXT NOT NULL DEFAULT '', created_at TEXT NOT NULL
+) STRICT;
+CREATE INDEX shapes_unfinished ON shapes (sequence) WHERE state IN ('queued', 'processing');
+CREATE TABLE stage_seconds (
+  shape INTEGER NOT NULL REFERENCES shapes (sequence) ON DELETE CASCADE, position INTEGER NOT NULL, stage TEXT NOT NULL,
+  seconds REAL NOT NULL, PRIMARY KEY (shape, position)
+) STRICT, WITHOUT ROWID;
+CREATE TABLE blobs (
+  shape INTEGER NOT NULL REFERENCES shapes (sequence) ON DELETE CASCADE, kind INTEGER NOT NULL, data BLOB NOT NULL, UNIQUE (shape, kind)
+) STRICT;
+INSERT INTO shapes VALUES
+  (1, 'a', 'one', 'f', 'repair=fill', 'ready', 12, 20, 1, 2, 3, 4, 5, 6, 7, 8, 9, 0, 1e-14, 0.5, '1', '', '', '2024-01-31T12:00:00.000Z'),
+  (2, 'b', '', 'f', 'repair=none', 'processing', 9, 9, 0, 0, 0, 0, 0, 0, 0, 0, 0, NULL, NULL, NULL, '', '', '',
+    '2024-01-31T12:00:01.000Z'),
+  (5, 'c', '', 'f', 'repair=fill', 'failed', 9, 9, 0, 0, 0, 0, 0, 0, 0, 0, 0, NULL, NULL, NULL, '', 'x', 'y', '2024-01-31T12:00:02.000Z');
+INSERT INTO stage_seconds VALUES (1, 0, 'conformal', 1.5), (1, 1, 'total', 2.5);
+PRAGMA application_id = 1399875661;
+PRAGMA user_version = 1;
+)sql");
+}
+
+TEST(Schema, BringsAFileOfTheFirstReleaseUpToDate) {
+  const StoreFile file;
+  make_first_schema(file.path());
+  ShapeStore store(file.path());
+  EXPECT_EQ(pragma(file.path(), "user_version"), schema_version());
+  const auto ready = store.find("a");
+  ASSERT_TRUE(ready);
+  EXPECT_EQ(ready->name, "one");
+  EXPECT_EQ(ready->state, ShapeState::ready);
+  EXPECT_EQ(ready->repair, (RepairReport{1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(ready->seconds, (StageSeconds{{"conformal", 1.5}, {"total", 2.5}}));
+  EXPECT_EQ(ready->created_at, "2024-01-31T12:00:00.000Z");
+  EXPECT_EQ(store.find("c")->error_detail, "y");
+  EXPECT_EQ(store.requeue_unfinished(), std::vector<std::string>{"b"});
+  EXPECT_EQ(store.count_lost_attempt("b"), 1);
+  // Places in the order are still never used twice.
+  testing::insert(store, testing::SampleUpload(1));
+  EXPECT_EQ(store.list(1).next_cursor, "6");
+}
+
 TEST(Schema, RefusesANewerVersionUntouched) {
   const StoreFile file;
   { const ShapeStore store(file.path()); }

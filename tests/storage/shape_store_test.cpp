@@ -206,13 +206,45 @@ TEST_F(ShapeStoreTest, UnfinishedShapesAreQueuedAgain) {
   store_.mark_processing(ids[1]);
   store_.mark_failed(ids[2], "code", "detail");
   store_.save_prepared(ids[3], sample_prepared(SampleUpload(3).surface));
-  const std::vector<std::string> expected{ids[0], ids[1], ids[4]};
-  EXPECT_EQ(store_.unfinished(), expected);
+  EXPECT_EQ(store_.unfinished(), (std::vector<std::string>{ids[0], ids[1], ids[4]}));
   EXPECT_EQ(store_.find(ids[1])->state, ShapeState::processing);
-  EXPECT_EQ(store_.requeue_unfinished(), expected);
+  EXPECT_EQ(store_.requeue_unfinished(), (std::vector<std::string>{ids[0], ids[4], ids[1]}));
   EXPECT_EQ(store_.find(ids[1])->state, ShapeState::queued);
   EXPECT_EQ(store_.find(ids[2])->state, ShapeState::failed);
   EXPECT_EQ(store_.find(ids[3])->state, ShapeState::ready);
+}
+
+TEST_F(ShapeStoreTest, WhatWasUnderWayIsTakenUpLast) {
+  std::vector<std::string> ids;
+  for (unsigned i = 0; i < 4; ++i) {
+    const SampleUpload upload(i);
+    insert(store_, upload);
+    ids.push_back(upload.content.id);
+  }
+  store_.mark_processing(ids[0]);
+  store_.mark_processing(ids[1]);
+  EXPECT_EQ(store_.count_lost_attempt(ids[1]), 1);
+  EXPECT_EQ(store_.requeue_unfinished(), (std::vector<std::string>{ids[2], ids[3], ids[0], ids[1]}));
+  EXPECT_EQ(store_.requeue_unfinished(), (std::vector<std::string>{ids[0], ids[2], ids[3], ids[1]}));
+}
+
+TEST_F(ShapeStoreTest, CountsLostAttemptsUntilTheShapeIsReadyOrQueuedAnew) {
+  const SampleUpload upload(1);
+  const std::string& id = upload.content.id;
+  EXPECT_EQ(store_.count_lost_attempt(id), 0);
+  insert(store_, upload);
+  EXPECT_EQ(store_.count_lost_attempt(id), 1);
+  store_.mark_processing(id);
+  EXPECT_EQ(store_.count_lost_attempt(id), 2);
+  store_.requeue_unfinished();
+  EXPECT_EQ(store_.count_lost_attempt(id), 3);
+  store_.mark_failed(id, "code", "detail");
+  EXPECT_EQ(store_.count_lost_attempt(id), 0);
+  store_.requeue(id);
+  EXPECT_EQ(store_.count_lost_attempt(id), 1);
+  store_.save_prepared(id, sample_prepared(upload.surface));
+  store_.requeue(id);
+  EXPECT_EQ(store_.count_lost_attempt(id), 1);
 }
 
 TEST_F(ShapeStoreTest, PagesFromNewestToOldest) {

@@ -5,36 +5,65 @@
 #include <string>
 
 #include "engine/io/off.h"
+#include "tests/engine/io/reading.h"
+#include "tests/support/mesh_files.h"
 #include "tests/support/meshes.h"
-#include "tests/support/surface_checks.h"
 
 namespace spherematch {
 namespace {
 
-using test::expect_refusal;
+using test::expect_refused;
+using test::expect_same;
+using test::read;
 
-PolygonMesh read(std::string_view text, std::string_view name) { return read_mesh(std::as_bytes(std::span(text)), name); }
+TEST(MeshReader, TheSameMeshInEveryFormatReadsTheSame) {
+  const TriMesh creature = test::creature(3);
+  for (const TriMesh& mesh : {test::tetrahedron(), creature, test::transformed(creature, 1e-5, test::some_rotation(), {1e-3, -7, 0})}) {
+    const PolygonMesh expected = test::fit_for_every_format(mesh);
+    for (const auto& [name, bytes] : test::in_every_format(expected)) expect_same(read(bytes), expected, name);
+  }
+}
 
 TEST(MeshReader, RecognisesContentWhateverTheName) {
-  const std::string text = write_off(test::tetrahedron());
-  for (const char* name : {"", "a.off", "a.ply", "mesh"}) EXPECT_EQ(read(text, name).face_count(), 4) << name;
+  const PolygonMesh expected = test::fit_for_every_format(test::tetrahedron());
+  for (const auto& [format, bytes] : test::in_every_format(expected))
+    for (const char* name : {"", "a.off", "a.OBJ", "a.ply", "a.stl", "a.gltf", "a.glb", "mesh", "a.fbx"})
+      expect_same(read(bytes, name), expected, format + " as " + name);
 }
 
 TEST(MeshReader, FallsBackToTheName) {
   const std::string text = write_off(test::tetrahedron()).substr(4);  // without the keyword
   for (const char* name : {"a.off", "A.OFF", "dir/a.Off"}) EXPECT_EQ(read(text, name).face_count(), 4) << name;
-  for (const char* name : {"", "a.ply", "off", ".of", "a.off.gz"})
-    expect_refusal(ErrorCode::unsupported_format, [&] { (void)read(text, name); });
+  for (const char* name : {"", "off", ".of", "a.off.gz"})
+    expect_refused(ErrorCode::unsupported_format, "not recognised; OFF, OBJ, PLY, STL, glTF and GLB are supported", text, name);
+  for (const char* name : {"a.ply", "a.stl", "a.gltf", "a.glb"}) expect_refused(ErrorCode::malformed_mesh, "", text, name);
+  expect_refused(ErrorCode::degenerate, "no vertices or no faces", text, "a.obj");
 }
 
 TEST(MeshReader, RefusesNothingAndTheUnknown) {
-  expect_refusal(ErrorCode::malformed_mesh, [] { (void)read("", "a.off"); });
-  expect_refusal(ErrorCode::unsupported_format, [] { (void)read(std::string_view("\0\x01\xFF", 3), "a.bin"); });
+  expect_refused(ErrorCode::malformed_mesh, "the mesh file is empty", "", "a.off");
+  for (const std::string_view bytes :
+       {std::string_view("\0\x01\xFF", 3), std::string_view("hello"), std::string_view("\n\n"), std::string_view("name=x&file=y")})
+    expect_refused(ErrorCode::unsupported_format, "not recognised", bytes, "a.bin");
 }
 
-TEST(MeshReader, PassesLimitsOn) {
-  const std::string text = write_off(test::tetrahedron());
-  expect_refusal(ErrorCode::too_many_vertices, [&] { (void)read_mesh(std::as_bytes(std::span(text)), "", {.max_vertices = 3}); });
+TEST(MeshReader, NamesWhatPeopleUploadByMistake) {
+  for (const auto& [bytes, message] :
+       std::vector<std::pair<std::string, std::string>>{{"\x1F\x8B\x08", "the file is compressed with gzip; upload it unpacked"},
+                                                        {"PK\x03\x04", "the file is a zip archive"},
+                                                        {"Kaydara FBX Binary  ", "the file is FBX. OFF, OBJ, PLY"},
+                                                        {"<!DOCTYPE html>", "the file is XML or HTML"},
+                                                        {"# vtk DataFile Version 3.0\n", "the file is VTK"},
+                                                        {"\xFF\xFEO", "the file is text in UTF-16"}})
+    for (const char* name : {"", "a.off", "a.stl"}) expect_refused(ErrorCode::unsupported_format, message, bytes, name);
+}
+
+TEST(MeshReader, KeepsToTheLimitsInEveryFormat) {
+  const PolygonMesh mesh = test::fit_for_every_format(test::icosphere(1));
+  for (const auto& [name, bytes] : test::in_every_format(mesh)) {
+    EXPECT_EQ(read(bytes, name, {.max_vertices = 42}).vertex_count(), 42) << name;
+    expect_refused(ErrorCode::too_many_vertices, "has 42 vertices; the limit is 41", bytes, name, {.max_vertices = 41});
+  }
 }
 
 }  // namespace

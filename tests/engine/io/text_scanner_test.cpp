@@ -36,6 +36,36 @@ TEST(TextScanner, SkipsTheRestOfALineAndUnreads) {
   EXPECT_EQ(scanner.remaining(), 0U);
 }
 
+TEST(TextScanner, EndsStatementsAtLineEndsUnlessABackslashJoinsThem) {
+  TextScanner scanner("a b\\\nc\\x d \\\r\ne # f\\\ng\n\\", LineEnds::end_statements, 10);
+  for (const char* word : {"a", "b", "c\\x", "d", "e", "", ""}) EXPECT_EQ(scanner.word(), word);
+  EXPECT_EQ(scanner.line(), 12);
+  scanner.skip_line();
+  for (const char* word : {"g", "", ""}) EXPECT_EQ(scanner.word(), word);
+  EXPECT_EQ(scanner.line(), 13);
+  scanner.skip_line();
+  EXPECT_EQ(scanner.word(), "\\");
+  EXPECT_EQ(scanner.remaining(), 0U);
+  EXPECT_EQ(scanner.place(), "line 14: ");
+  // Elsewhere a backslash is a character like others.
+  TextScanner plain("a\\\nb");
+  EXPECT_EQ(plain.word(), "a\\");
+  EXPECT_EQ(plain.word(), "b");
+}
+
+TEST(TextScanner, TellsTheEndOfALineFromThatOfTheFile) {
+  const auto message = [](std::string_view text) -> std::string {
+    try {
+      (void)TextScanner(text, LineEnds::end_statements).integer("a count");
+    } catch (const EngineError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message(" \n7"), "line 1: the line ends where a count should be");
+  EXPECT_EQ(message(" "), "line 1: the file ends where a count should be");
+}
+
 TEST(TextScanner, ReadsNumbers) {
   TextScanner scanner("7 -3 +5 1.5 -2e-3 +4 .25 1e-400 0.0");
   EXPECT_EQ(scanner.integer("x"), 7);

@@ -22,7 +22,7 @@ PreprocessedShape shape_of(TriMesh mesh) {
   PreprocessedShape shape;
   IntrinsicMesh intrinsic = intrinsic_mesh(mesh);
   make_delaunay(intrinsic);
-  const Eigenbasis basis = compute_eigenbasis(intrinsic, mesh.vertex_count(), 60, {});
+  const Eigenbasis basis = compute_eigenbasis(cotangent_laplacian(intrinsic, mesh.vertex_count()), 60, {});
   shape.eigenvalues = basis.values;
   shape.eigenvectors = basis.vectors.cast<float>();
   shape.sphere = mesh.vertices.rowwise().normalized();

@@ -20,15 +20,15 @@ using test::icosphere;
 
 constexpr double pi = std::numbers::pi;
 
-IntrinsicMesh unit_area(TriMesh mesh) {
+Laplacian laplacian_of(TriMesh mesh) {
   mesh.vertices.rowwise() -= mesh.vertices.colwise().mean().eval();
   mesh.vertices /= std::sqrt(face_areas(mesh.vertices, mesh.faces).sum());
   IntrinsicMesh intrinsic = intrinsic_mesh(mesh);
   make_delaunay(intrinsic);
-  return intrinsic;
+  return cotangent_laplacian(intrinsic, mesh.vertex_count());
 }
 
-Eigenbasis basis_of(const TriMesh& mesh, int count) { return compute_eigenbasis(unit_area(mesh), mesh.vertex_count(), count, {}); }
+Eigenbasis basis_of(const TriMesh& mesh, int count) { return compute_eigenbasis(laplacian_of(mesh), count, {}); }
 
 TEST(Eigenbasis, OfTheSphereHasItsEigenvaluesWithTheirMultiplicities) {
   std::vector<double> previous(7, 0);
@@ -52,8 +52,7 @@ TEST(Eigenbasis, OfTheSphereHasItsEigenvaluesWithTheirMultiplicities) {
   }
 }
 
-void expect_eigenpairs(const Eigenbasis& basis, const IntrinsicMesh& mesh, Eigen::Index vertices) {
-  const Laplacian laplacian = cotangent_laplacian(mesh, vertices);
+void expect_eigenpairs(const Eigenbasis& basis, const Laplacian& laplacian) {
   const SparseMatrix stiffness = laplacian.stiffness.selfadjointView<Eigen::Lower>(), mass = laplacian.mass.selfadjointView<Eigen::Lower>();
   const Eigen::MatrixXd gram = basis.vectors.transpose() * mass * basis.vectors;
   // Measured: 4e-14.
@@ -72,9 +71,9 @@ void expect_eigenpairs(const Eigenbasis& basis, const IntrinsicMesh& mesh, Eigen
 
 TEST(Eigenbasis, SolvesTheEigenproblemAndIsOrthonormal) {
   for (const TriMesh& mesh : {test::creature(3), icosphere(3)}) {
-    const IntrinsicMesh intrinsic = unit_area(mesh);
-    const Eigenbasis basis = compute_eigenbasis(intrinsic, mesh.vertex_count(), 80, {});
-    expect_eigenpairs(basis, intrinsic, mesh.vertex_count());
+    const Laplacian laplacian = laplacian_of(mesh);
+    const Eigenbasis basis = compute_eigenbasis(laplacian, 80, {});
+    expect_eigenpairs(basis, laplacian);
     EXPECT_NEAR(basis.values[0], 0, 1e-10);
     EXPECT_LT((basis.vectors.col(0).array().abs() - 1).abs().maxCoeff(), 1e-10) << "the constant of the unit-area surface is one";
   }
@@ -82,14 +81,13 @@ TEST(Eigenbasis, SolvesTheEigenproblemAndIsOrthonormal) {
 
 TEST(Eigenbasis, FindsWhatADenseSolverFinds) {
   const TriMesh mesh = test::creature(2);
-  const IntrinsicMesh intrinsic = unit_area(mesh);
-  const Laplacian laplacian = cotangent_laplacian(intrinsic, mesh.vertex_count());
+  const Laplacian laplacian = laplacian_of(mesh);
   const Eigen::MatrixXd stiffness = Eigen::MatrixXd(laplacian.stiffness).selfadjointView<Eigen::Lower>();
   const Eigen::MatrixXd mass = Eigen::MatrixXd(laplacian.mass).selfadjointView<Eigen::Lower>();
   const Eigen::VectorXd exact =
       Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, mass, Eigen::EigenvaluesOnly).eigenvalues();
   for (const int count : {10, 60, 150}) {
-    const Eigenbasis basis = compute_eigenbasis(intrinsic, mesh.vertex_count(), count, {});
+    const Eigenbasis basis = compute_eigenbasis(laplacian, count, {});
     ASSERT_EQ(basis.values.size(), count);
     // Measured: 2e-14 of the largest.
     EXPECT_LT((basis.values - exact.head(count)).cwiseAbs().maxCoeff(), 1e-11 * exact[count]) << "a pair was missed";
@@ -99,10 +97,9 @@ TEST(Eigenbasis, FindsWhatADenseSolverFinds) {
 TEST(Eigenbasis, MissesNoneOfSeveralEqualEigenvalues) {
   // By Sylvester's law of inertia S - sigma M has as many negative pivots as there are eigenvalues below sigma.
   const TriMesh mesh = icosphere(3);
-  const IntrinsicMesh intrinsic = unit_area(mesh);
-  const Laplacian laplacian = cotangent_laplacian(intrinsic, mesh.vertex_count());
+  const Laplacian laplacian = laplacian_of(mesh);
   for (const int count : {20, 30, 45, 49, 64, 100, 200}) {
-    const Eigenbasis basis = compute_eigenbasis(intrinsic, mesh.vertex_count(), count, {});
+    const Eigenbasis basis = compute_eigenbasis(laplacian, count, {});
     const double sigma = basis.values[count - 1] * (1 - 1e-7);
     const Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower> factors(laplacian.stiffness - sigma * laplacian.mass);
     EXPECT_EQ((basis.values.array() < sigma).count(), (factors.vectorD().array() < 0).count()) << "of " << count << " pairs";
@@ -111,12 +108,39 @@ TEST(Eigenbasis, MissesNoneOfSeveralEqualEigenvalues) {
 
 TEST(Eigenbasis, AsksASmallMeshForNoMoreThanItHas) {
   for (const TriMesh& mesh : {test::tetrahedron(), icosphere(0), icosphere(1)}) {
-    const IntrinsicMesh intrinsic = unit_area(mesh);
-    const Eigenbasis basis = compute_eigenbasis(intrinsic, mesh.vertex_count(), 200, {});
+    const Laplacian laplacian = laplacian_of(mesh);
+    const Eigenbasis basis = compute_eigenbasis(laplacian, 200, {});
     EXPECT_EQ(basis.values.size(), mesh.vertex_count() - 2);
     EXPECT_EQ(basis.vectors.rows(), mesh.vertex_count());
-    expect_eigenpairs(basis, intrinsic, mesh.vertex_count());
+    expect_eigenpairs(basis, laplacian);
   }
+}
+
+TEST(Eigenbasis, IsWhatSingleVectorsFind) {
+  for (const TriMesh& mesh : {test::creature(4), icosphere(4)}) {
+    const Laplacian laplacian = laplacian_of(mesh);
+    const Eigenbasis blocks = compute_eigenbasis(laplacian, 100, {}), single = compute_eigenbasis_by_single_vectors(laplacian, 100, {});
+    expect_eigenpairs(single, laplacian);
+    EXPECT_LT((blocks.values - single.values).cwiseAbs().maxCoeff(), 1e-10 * single.values[99]);
+    // Vectors of equal eigenvalues are free to turn among each other, and all to change sign; signatures are the same.
+    const auto signatures = [](const Eigenbasis& basis) {
+      return heat_kernel_signatures(basis.values.head(81), basis.vectors.leftCols(81).cast<float>(), {1, 0.0625});
+    };
+    EXPECT_LT((signatures(blocks) - signatures(single)).cwiseAbs().maxCoeff(), 1e-6);
+  }
+}
+
+TEST(Eigenbasis, ReportsHowFarItIs) {
+  double last = 0;
+  int reports = 0;
+  (void)compute_eigenbasis(laplacian_of(test::creature(3)), 50, {}, [&](double fraction) {
+    EXPECT_GE(fraction, last);
+    EXPECT_LE(fraction, 1);
+    last = fraction;
+    ++reports;
+  });
+  EXPECT_GT(reports, 5);
+  EXPECT_GT(last, 0.7);
 }
 
 TEST(Eigenbasis, GivesTheSphereItsHeatKernelSignatures) {
@@ -160,7 +184,7 @@ TEST(Eigenbasis, IsDeterministicAndStopsWhenAsked) {
   std::stop_source source;
   source.request_stop();
   const Progress progress{{}, source.get_token()};
-  test::expect_refusal(ErrorCode::cancelled, [&] { (void)compute_eigenbasis(unit_area(mesh), mesh.vertex_count(), 30, progress); });
+  test::expect_refusal(ErrorCode::cancelled, [&] { (void)compute_eigenbasis(laplacian_of(mesh), 30, progress); });
 }
 
 }  // namespace

@@ -1,0 +1,62 @@
+#include "engine/io/map_format.h"
+
+#include <array>
+#include <utility>
+
+#include "engine/io/map_mesh.h"
+#include "engine/io/map_picture.h"
+#include "engine/io/map_writer.h"
+
+namespace spherematch {
+
+namespace {
+
+constexpr std::array<std::pair<std::string_view, MapFormat>, 7> formats{{
+    {"npz", MapFormat::npz},
+    {"npy", MapFormat::npy},
+    {"txt", MapFormat::text},
+    {"ply", MapFormat::ply},
+    {"glb", MapFormat::glb},
+    {"obj", MapFormat::obj},
+    {"png", MapFormat::png},
+}};
+
+}  // namespace
+
+std::vector<std::string_view> map_format_names() {
+  std::vector<std::string_view> names;
+  names.reserve(formats.size());
+  for (const auto& [name, format] : formats) names.push_back(name);
+  return names;
+}
+
+std::optional<MapFormat> map_format_of(std::string_view name) {
+  for (const auto& [known, format] : formats) {
+    if (known == name) return format;
+  }
+  return std::nullopt;
+}
+
+bool needs_source_mesh(MapFormat format) { return format == MapFormat::ply || format == MapFormat::glb || format == MapFormat::obj; }
+
+std::string encode_map(MapFormat format, const Correspondence& map, const Surface& source, const Surface& target, PolygonMesh source_mesh) {
+  switch (format) {
+    case MapFormat::npz:
+      return encode_npz(map);
+    case MapFormat::npy:
+      return encode_npy(map);
+    case MapFormat::text:
+      return encode_text(map);
+    case MapFormat::ply:
+      return encode_ply(paint_mesh(std::move(source_mesh), map, target));
+    case MapFormat::glb:
+      return encode_glb(paint_mesh(std::move(source_mesh), map, target));
+    case MapFormat::obj:
+      return encode_obj(paint_mesh(std::move(source_mesh), map, target));
+    case MapFormat::png:
+      return encode_png(map, source, target);
+  }
+  return {};
+}
+
+}  // namespace spherematch

@@ -1,0 +1,104 @@
+#include "engine/io/map_picture.h"
+
+#include <png.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "engine/io/camera.h"
+#include "engine/io/float_range.h"
+#include "engine/io/map_mesh.h"
+#include "engine/io/renderer.h"
+
+namespace spherematch {
+
+namespace {
+
+constexpr int side = 600;
+constexpr int margin = 24;
+
+/// A third of the area round each vertex.
+Eigen::VectorXd vertex_areas(const TriMesh& mesh) {
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(mesh.vertex_count());
+  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
+    const Eigen::RowVector3d a = mesh.vertices.row(mesh.faces(f, 0));
+    const double area = (mesh.vertices.row(mesh.faces(f, 1)) - a).cross(mesh.vertices.row(mesh.faces(f, 2)) - a).norm() / 2;
+    for (int k = 0; k < 3; ++k) areas(mesh.faces(f, k)) += area / 3;
+  }
+  return areas;
+}
+
+/// The mesh moved to the origin and scaled to unit area.
+TriMesh with_unit_area(const TriMesh& mesh) {
+  const Box box = box_of(mesh.vertices);
+  TriMesh result{.vertices = (mesh.vertices.rowwise() - box.center()) / box.radius(), .faces = mesh.faces};
+  result.vertices /= std::sqrt(vertex_areas(result).sum());
+  return result;
+}
+
+/// Rows of `values`, one for each uploaded vertex, brought to the vertices of the surface; NaN at an added vertex.
+Points on_surface(const Points& values, const Surface& surface) {
+  if (values.rows() != surface.uploaded_vertices()) throw std::invalid_argument("the map is of another source than the picture");
+  Points result = Points::Constant(surface.mesh.vertex_count(), 3, std::numeric_limits<double>::quiet_NaN());
+  for (std::int32_t v = 0; v < surface.uploaded_vertices(); ++v) {
+    const std::int32_t vertex = surface.surface_vertex[static_cast<std::size_t>(v)];
+    if (vertex >= 0) result.row(vertex) = values.row(v);
+  }
+  // Copies of a vertex that was split are known by the corners of their faces alone.
+  for (Eigen::Index f = 0; f < surface.mesh.face_count(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t uploaded = surface.uploaded_corners(f, k);
+      if (uploaded >= 0) result.row(surface.mesh.faces(f, k)) = values.row(uploaded);
+    }
+  }
+  return result;
+}
+
+/// Puts the middle of what is seen into the middle of the picture; returns the larger side of what is seen.
+double center_view(Scene& scene) {
+  const Box seen = box_of(scene.mesh.vertices * scene.axes.transpose());
+  scene.center = scene.axes.transpose() * seen.center().transpose();
+  return (seen.high - seen.low).head<2>().maxCoeff();
+}
+
+std::string to_png(const Image& image) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = static_cast<png_uint_32>(image.width);
+  header.height = static_cast<png_uint_32>(image.height);
+  header.format = PNG_FORMAT_RGB;
+  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(header), '\0');
+  png_alloc_size_t size = bytes.size();
+  if (png_image_write_to_memory(&header, bytes.data(), &size, 0, image.pixels.data(), 0, nullptr) == 0) {
+    throw std::runtime_error(std::string("writing a PNG failed: ") + header.message);
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
+}  // namespace
+
+std::string encode_png(const Correspondence& map, const Surface& source, const Surface& target) {
+  const TriMesh left = with_unit_area(source.mesh);
+  const TriMesh right = with_unit_area(target.mesh);
+  const Points images = on_surface(image_points(map, target), source);
+  const Points left_paint = normalized_coordinates(images, target);
+  const Points right_paint = normalized_coordinates(target.mesh.vertices, target);
+
+  const Pose pose = upright_pose(left);
+  const Eigen::Matrix3d rotation = best_rotation(images, left.vertices, vertex_areas(left));
+  Scene left_scene{left, left_paint, view_axes(pose), {}, 1};
+  Scene right_scene{right, right_paint, view_axes(corresponding_pose(pose, rotation)), {}, 1};
+  const double larger = std::max(center_view(left_scene), center_view(right_scene));
+  left_scene.pixels_per_unit = right_scene.pixels_per_unit = (side - 2 * margin) / larger;
+
+  Image image(2 * side, side);
+  render(left_scene, image, 0);
+  render(right_scene, image, side);
+  return to_png(image);
+}
+
+}  // namespace spherematch
