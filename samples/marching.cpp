@@ -79,10 +79,13 @@ class Marcher {
       }
       ++inside;
     }
+    // One statement for each crossing: the vertices are numbered in their order, and that of a call's arguments is the compiler's choice.
     if (inside == 1) {
-      triangle(crossing(n[0], n[1]), crossing(n[0], n[2]), crossing(n[0], n[3]), odd);
+      const int c = crossing(n[0], n[3]), b = crossing(n[0], n[2]), a = crossing(n[0], n[1]);
+      triangle(a, b, c, odd);
     } else if (inside == 3) {
-      triangle(crossing(n[0], n[3]), crossing(n[1], n[3]), crossing(n[2], n[3]), odd);
+      const int c = crossing(n[2], n[3]), b = crossing(n[1], n[3]), a = crossing(n[0], n[3]);
+      triangle(a, b, c, odd);
     } else if (inside == 2) {
       const int a = crossing(n[0], n[2]), b = crossing(n[0], n[3]), c = crossing(n[1], n[3]), d = crossing(n[1], n[2]);
       triangle(a, b, c, odd);
