@@ -32,6 +32,7 @@ constexpr auto table = std::to_array<ErrorEntry>({
     {Code::parametrization_failed, "parametrization-failed", 422, "No spherical parametrisation was found", false},
     {Code::shape_not_ready, "shape-not-ready", 409, "The shape is still being prepared", true},
     {Code::shape_failed, "shape-failed", 422, "The shape could not be prepared", false},
+    {Code::job_finished, "job-finished", 409, "The job has ended", false},
     {Code::cancelled, "cancelled", 503, "The work was cancelled", true},
     {Code::overloaded, "overloaded", 503, "The server is busy", true},
     {Code::draining, "draining", 503, "The server is stopping", true},

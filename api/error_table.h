@@ -36,6 +36,8 @@ enum class Code {
   // the state of a shape
   shape_not_ready,
   shape_failed,
+  // the state of a job
+  job_finished,
   // the server
   cancelled,
   overloaded,

@@ -20,6 +20,11 @@ class JsonError : public std::runtime_error {
 [[nodiscard]] Json to_json(const Shape& value);
 [[nodiscard]] Json to_json(const ShapePage& value);
 [[nodiscard]] Json to_json(const Match& value);
+[[nodiscard]] Json to_json(const MatchRequest& value);
+[[nodiscard]] Json to_json(const PointMatch& value);
+[[nodiscard]] Json to_json(const Job& value);
+[[nodiscard]] Json to_json(const JobPage& value);
+[[nodiscard]] Json to_json(const PairResult& value);
 [[nodiscard]] Json to_json(const Health& value);
 [[nodiscard]] Json to_json(const Version& value);
 
@@ -38,6 +43,16 @@ template <>
 ShapePage from_text<ShapePage>(std::string_view text);
 template <>
 Match from_text<Match>(std::string_view text);
+template <>
+MatchRequest from_text<MatchRequest>(std::string_view text);
+template <>
+PointMatch from_text<PointMatch>(std::string_view text);
+template <>
+Job from_text<Job>(std::string_view text);
+template <>
+JobPage from_text<JobPage>(std::string_view text);
+template <>
+PairResult from_text<PairResult>(std::string_view text);
 template <>
 Health from_text<Health>(std::string_view text);
 template <>

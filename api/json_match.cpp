@@ -60,6 +60,31 @@ std::vector<std::array<float, 3>> read_bary(const Json& value, const std::string
   return result;
 }
 
+/// The arrays that a map, forward or reverse, has been asked for.
+template <typename Map>
+void write_arrays(Json& json, const Map& map) {
+  if (map.vertex) json["vertex"] = *map.vertex;
+  if (map.corners) json["corners"] = *map.corners;
+  if (map.bary) json["bary"] = bary_json(*map.bary);
+}
+
+template <typename Map>
+void read_arrays(ObjectReader& reader, Map& map) {
+  if (reader.has("vertex")) map.vertex = read_vertex(reader.member("vertex"), reader.path_of("vertex"), map.n_src, map.n_tgt);
+  if (reader.has("corners")) map.corners = read_corners(reader.member("corners"), reader.path_of("corners"), map.n_src, map.n_tgt);
+  if (reader.has("bary")) map.bary = read_bary(reader.member("bary"), reader.path_of("bary"), map.n_src);
+}
+
+ReverseMap read_reverse(const Json& value, const std::string& path) {
+  ObjectReader reader(value, path);
+  ReverseMap reverse;
+  reverse.n_src = reader.count("n_src");
+  reverse.n_tgt = reader.count("n_tgt");
+  read_arrays(reader, reverse);
+  reader.finish();
+  return reverse;
+}
+
 Candidate read_candidate(const Json& value, const std::string& path) {
   constexpr double most = std::numeric_limits<double>::max();
   ObjectReader reader(value, path);
@@ -78,9 +103,12 @@ Candidate read_candidate(const Json& value, const std::string& path) {
 
 Json to_json(const Match& value) {
   Json json{{"src", value.src}, {"tgt", value.tgt}, {"n_src", value.n_src}, {"n_tgt", value.n_tgt}};
-  if (value.vertex) json["vertex"] = *value.vertex;
-  if (value.corners) json["corners"] = *value.corners;
-  if (value.bary) json["bary"] = bary_json(*value.bary);
+  write_arrays(json, value);
+  if (value.reverse) {
+    Json& reverse = json["reverse"] = {{"n_src", value.reverse->n_src}, {"n_tgt", value.reverse->n_tgt}};
+    write_arrays(reverse, *value.reverse);
+  }
+  json["orientation"] = value.orientation;
   json["quality"] = named_numbers_json(value.quality);
   json["candidates"] = Json::array();
   for (const Candidate& candidate : value.candidates) json["candidates"].push_back(to_json(candidate));
@@ -90,28 +118,32 @@ Json to_json(const Match& value) {
   return json;
 }
 
-template <>
-Match from_text<Match>(std::string_view text) {
-  const Json json = parse(text);
-  ObjectReader reader(json, "");
+Match read_match(const Json& json, const std::string& path) {
+  ObjectReader reader(json, path);
   Match match;
   match.src = reader.text("src");
   match.tgt = reader.text("tgt");
   match.n_src = reader.count("n_src");
   match.n_tgt = reader.count("n_tgt");
-  if (json.contains("vertex")) match.vertex = read_vertex(reader.member("vertex"), "vertex", match.n_src, match.n_tgt);
-  if (json.contains("corners")) match.corners = read_corners(reader.member("corners"), "corners", match.n_src, match.n_tgt);
-  if (json.contains("bary")) match.bary = read_bary(reader.member("bary"), "bary", match.n_src);
+  read_arrays(reader, match);
+  if (reader.has("reverse")) match.reverse = read_reverse(reader.member("reverse"), reader.path_of("reverse"));
+  match.orientation = reader.text("orientation");
   match.quality = reader.named_numbers("quality");
-  const Json& candidates = array_at(reader.member("candidates"), "candidates");
+  const std::string candidates_path = reader.path_of("candidates");
+  const Json& candidates = array_at(reader.member("candidates"), candidates_path);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    match.candidates.push_back(read_candidate(candidates[i], element_path("candidates", i)));
+    match.candidates.push_back(read_candidate(candidates[i], element_path(candidates_path, i)));
   }
   match.seconds = reader.named_numbers("seconds");
   match.cached = reader.boolean("cached");
   match.engine = reader.text("engine");
   reader.finish();
   return match;
+}
+
+template <>
+Match from_text<Match>(std::string_view text) {
+  return read_match(parse(text), "");
 }
 
 }  // namespace spherematch::api

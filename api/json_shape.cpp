@@ -82,8 +82,6 @@ Shape read_shape(const Json& value, const std::string& path) {
   return shape;
 }
 
-Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
-
 }  // namespace
 
 Json to_json(const Shape& value) {

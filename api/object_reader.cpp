@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "api/object_reader.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +10,8 @@ namespace spherematch::api {
 namespace {
 
 constexpr int max_depth = 16;
+/// Of one object. An ordered object is searched from its front at every member, so many would take their square in time.
+constexpr std::size_t max_members = 2000;
 
 [[noreturn]] void fail(const std::string& path, const std::string& reason) {
   throw JsonError((path.empty() ? std::string("the document") : path) + ": " + reason);
@@ -19,8 +22,14 @@ constexpr int max_depth = 16;
 Json parse(std::string_view text) {
   try {
     // The callback sees the depth before the parser goes deeper, so hostile nesting costs nothing.
-    return Json::parse(text, [](int depth, Json::parse_event_t, const Json&) {
+    std::array<std::size_t, max_depth + 2> members{};
+    return Json::parse(text, [&members](int depth, Json::parse_event_t event, const Json&) {
       if (depth > max_depth) throw JsonError("the document: nested deeper than " + std::to_string(max_depth));
+      std::size_t& count = members.at(static_cast<std::size_t>(depth));
+      if (event == Json::parse_event_t::object_start) members.at(static_cast<std::size_t>(depth) + 1) = 0;
+      if (event == Json::parse_event_t::key && ++count > max_members) {
+        throw JsonError("the document: an object has more than " + std::to_string(max_members) + " members");
+      }
       return true;
     });
   } catch (const Json::exception& error) {
@@ -81,6 +90,8 @@ NamedNumbers ObjectReader::named_numbers(std::string_view name) {
 
 bool ObjectReader::is_null(std::string_view name) { return member(name).is_null(); }
 
+bool ObjectReader::has(std::string_view name) const { return value_.contains(std::string(name)); }
+
 void ObjectReader::finish() const {
   for (const auto& [key, value] : value_.items()) {
     if (!seen_.contains(key)) fail(path_of(key), "is not a known member");
@@ -110,6 +121,8 @@ const Json& array_at(const Json& value, const std::string& path, std::size_t siz
 }
 
 std::string element_path(const std::string& path, std::size_t index) { return path + "[" + std::to_string(index) + "]"; }
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Json named_numbers_json(const NamedNumbers& values) {
   Json object = Json::object();

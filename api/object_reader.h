@@ -30,6 +30,8 @@ class ObjectReader {
   [[nodiscard]] double number(std::string_view name, double least, double most);
   [[nodiscard]] NamedNumbers named_numbers(std::string_view name);
   [[nodiscard]] bool is_null(std::string_view name);
+  /// Whether there is such a member; one that is there still has to be read.
+  [[nodiscard]] bool has(std::string_view name) const;
 
   /// @throws JsonError when the object has a member that nothing asked for
   void finish() const;
@@ -49,6 +51,8 @@ const Json& array_at(const Json& value, const std::string& path, std::size_t siz
 
 /// The nested readers that more than one file needs.
 [[nodiscard]] Problem read_problem(const Json& value, const std::string& path);
+[[nodiscard]] Match read_match(const Json& value, const std::string& path);
+[[nodiscard]] Json text_or_null(const std::string& text);
 [[nodiscard]] Json named_numbers_json(const NamedNumbers& values);
 
 }  // namespace spherematch::api

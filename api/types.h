@@ -104,6 +104,16 @@ struct Candidate {
   bool operator==(const Candidate&) const = default;
 };
 
+/// The map from tgt to src, of the same registration; the members are those of Match.
+struct ReverseMap {
+  std::int32_t n_src = 0;  ///< vertices of the match's tgt, whose images these are
+  std::int32_t n_tgt = 0;
+  std::optional<std::vector<std::int32_t>> vertex;
+  std::optional<std::vector<std::array<std::int32_t, 3>>> corners;
+  std::optional<std::vector<std::array<float, 3>>> bary;
+  bool operator==(const ReverseMap&) const = default;
+};
+
 struct Match {
   std::string src;
   std::string tgt;
@@ -112,12 +122,108 @@ struct Match {
   std::optional<std::vector<std::int32_t>> vertex;                  ///< n_src, if asked for
   std::optional<std::vector<std::array<std::int32_t, 3>>> corners;  ///< n_src, if asked for
   std::optional<std::vector<std::array<float, 3>>> bary;            ///< n_src, if asked for
+  std::optional<ReverseMap> reverse;                                ///< if asked for
+  std::string orientation = "preserve";                             ///< or "reverse": the mirror image of src was matched
   NamedNumbers quality;                                             ///< a figure that is not finite is null in JSON
   std::vector<Candidate> candidates;
   NamedNumbers seconds;
   bool cached = false;
   std::string engine;
   bool operator==(const Match&) const = default;
+};
+
+/// A point of a surface: a vertex, a point of a face by its corners and weights, or the nearest point to a position.
+struct CornersPoint {
+  std::array<std::int32_t, 3> corners{};
+  std::array<double, 3> bary{};  ///< non-negative, sum 1
+  bool operator==(const CornersPoint&) const = default;
+};
+struct PositionPoint {
+  std::array<double, 3> position{};
+  bool operator==(const PositionPoint&) const = default;
+};
+using SurfacePoint = std::variant<std::int32_t, CornersPoint, PositionPoint>;
+using Landmarks = std::vector<std::pair<std::string, SurfacePoint>>;
+
+inline constexpr std::size_t max_points = 100'000;
+inline constexpr std::size_t max_pairs = 1000;
+
+/// The body of POST /match, in one of two forms: some points of one pair, or many pairs.
+struct MatchRequest {
+  std::string src;  ///< of one pair
+  std::string tgt;
+  std::optional<std::vector<SurfacePoint>> points;  ///< of src, at most max_points
+  std::optional<Landmarks> landmarks;               ///< of src by name, at most 2000
+  std::vector<std::array<std::int32_t, 2>> hints;   ///< of one pair: vertices of src and tgt
+  std::vector<std::array<std::string, 2>> pairs;    ///< src and tgt of each of many pairs, at most max_pairs
+  std::string fields = "vertex";                    ///< of many pairs
+  bool both = false;                                ///< of many pairs
+  std::string method = "default";
+  std::string orientation = "preserve";
+  bool operator==(const MatchRequest&) const = default;
+};
+
+/// Where a point lies on tgt.
+struct PointImage {
+  std::int32_t vertex = -1;
+  std::array<std::int32_t, 3> corners{};
+  std::array<double, 3> bary{};
+  std::array<double, 3> position{};
+  bool operator==(const PointImage&) const = default;
+};
+
+/// The answer to POST /match for points and landmarks. An image is missing where its point was dropped by repair.
+struct PointMatch {
+  std::string src;
+  std::string tgt;
+  std::optional<std::vector<std::optional<PointImage>>> points;
+  std::optional<std::vector<std::pair<std::string, std::optional<PointImage>>>> landmarks;
+  std::string orientation = "preserve";
+  NamedNumbers quality;
+  NamedNumbers seconds;
+  bool cached = false;
+  std::string engine;
+  bool operator==(const PointMatch&) const = default;
+};
+
+struct PairCounts {
+  std::int32_t total = 0;
+  std::int32_t succeeded = 0;
+  std::int32_t failed = 0;
+  bool operator==(const PairCounts&) const = default;
+};
+
+struct Job {
+  std::string id;
+  std::string kind = "match";    ///< or "preprocess"
+  std::string state = "queued";  ///< or "processing", "succeeded", "failed", "cancelled"
+  std::string stage;             ///< empty unless processing
+  double progress = 0;           ///< in [0, 1]
+  std::int32_t position = 0;     ///< how many are in front of it; 0 unless queued
+  std::string created_at;
+  std::string started_at;           ///< empty before
+  std::string finished_at;          ///< empty before
+  std::optional<Problem> error;     ///< once failed
+  std::string shape;                ///< of a preparation
+  std::optional<PairCounts> pairs;  ///< of a match job
+  std::string results;              ///< of a match job: the path of its results
+  bool operator==(const Job&) const = default;
+};
+
+struct JobPage {
+  std::vector<Job> items;
+  std::optional<std::string> next_cursor;
+  bool operator==(const JobPage&) const = default;
+};
+
+/// One line of a match job's results.
+struct PairResult {
+  std::int32_t index = 0;  ///< in the request, from 0
+  std::string src;
+  std::string tgt;
+  std::optional<Match> match;    ///< unless it failed
+  std::optional<Problem> error;  ///< if it failed
+  bool operator==(const PairResult&) const = default;
 };
 
 struct Health {

@@ -12,6 +12,7 @@
 #include "engine/data/preprocessed_shape.h"
 #include "engine/data/progress.h"
 #include "engine/data/surface.h"
+#include "engine/register/point_images.h"  // where chosen points of the source lie on the target
 
 namespace spherematch {
 

@@ -16,7 +16,7 @@ std::optional<std::size_t> declared_length(const httplib::Request& request) {
   return length;
 }
 
-/// What stays with an upload while its bytes live.
+/// What stays with a body while its bytes live.
 struct Permit {
   explicit Permit(ByteBudget& memory) : share(memory) {}
   ByteBudget::Share share;
@@ -34,7 +34,7 @@ class Collector {
     return has_room_;
   }
   void require_room() const {
-    if (!has_room_) throw ProblemError(api::Code::overloaded, "too many uploads at once; try again");
+    if (!has_room_) throw ProblemError(api::Code::overloaded, "too many request bodies at once; try again");
   }
 
  private:
@@ -49,7 +49,7 @@ void read_raw(const httplib::ContentReader& reader, Collector& collector) {
   if (!complete) throw ProblemError(api::Code::bad_request, "the body ended, or stopped coming, before its Content-Length");
 }
 
-void read_multipart(const httplib::ContentReader& reader, Upload& upload, Collector& collector) {
+void read_multipart(const httplib::ContentReader& reader, RequestBody& body, Collector& collector) {
   int files = 0;
   std::string refusal;
   const bool complete = reader(
@@ -59,7 +59,7 @@ void read_multipart(const httplib::ContentReader& reader, Upload& upload, Collec
         } else if (++files > 1) {
           refusal = "file: given more than once";
         }
-        upload.file_name = part.filename;
+        body.file_name = part.filename;
         return refusal.empty();
       },
       [&collector](const char* data, size_t size) { return collector.take(data, size); });
@@ -71,7 +71,7 @@ void read_multipart(const httplib::ContentReader& reader, Upload& upload, Collec
 
 }  // namespace
 
-std::optional<ProblemError> refuse_body(const httplib::Request& request, std::size_t max_bytes) {
+std::optional<ProblemError> refuse_body(const httplib::Request& request, Body kind, std::size_t max_bytes) {
   if (request.has_header("Transfer-Encoding")) {
     return ProblemError(api::Code::length_required, "chunked bodies are not accepted; send a Content-Length");
   }
@@ -90,32 +90,34 @@ std::optional<ProblemError> refuse_body(const httplib::Request& request, std::si
   }
   const std::string encoding = request.get_header_value("Content-Encoding");
   if (!encoding.empty() && encoding != "identity") {
-    return ProblemError(api::Code::content_encoding, "send the mesh as it is, without Content-Encoding");
+    return ProblemError(api::Code::content_encoding, "send the body as it is, without Content-Encoding");
   }
   const std::string type = request.get_header_value("Content-Type");
-  if (type.starts_with("multipart/") && !request.is_multipart_form_data()) {
-    return ProblemError(api::Code::unsupported_media_type, "of the multipart types only multipart/form-data is accepted");
+  if (type.starts_with("multipart/") && (kind != Body::upload || !request.is_multipart_form_data())) {
+    return ProblemError(api::Code::unsupported_media_type, kind == Body::upload
+                                                               ? "of the multipart types only multipart/form-data is accepted"
+                                                               : "send the body as it is, not in parts");
   }
   return std::nullopt;
 }
 
-Upload read_upload(const httplib::Request& request, const httplib::ContentReader& reader, const UploadBounds& bounds) {
+RequestBody read_body(const httplib::Request& request, const httplib::ContentReader& reader, Body kind, const BodyBounds& bounds) {
   auto permit = std::make_shared<Permit>(bounds.memory);
-  Upload upload;
+  RequestBody body;
   {
     const Gate::Permit receiving = bounds.receiving.enter();
     // Reserved memory is not touched before bytes arrive, so a false promise costs nothing.
-    upload.bytes.reserve(declared_length(request).value_or(0));
-    Collector collector(upload.bytes, permit->share);
+    body.bytes.reserve(declared_length(request).value_or(0));
+    Collector collector(body.bytes, permit->share);
     if (request.is_multipart_form_data()) {
-      read_multipart(reader, upload, collector);
+      read_multipart(reader, body, collector);
     } else {
       read_raw(reader, collector);
     }
   }
-  permit->reading.emplace(bounds.reading.enter());
-  upload.permit = std::move(permit);
-  return upload;
+  if (kind == Body::upload) permit->reading.emplace(bounds.reading.enter());
+  body.permit = std::move(permit);
+  return body;
 }
 
 }  // namespace spherematch

@@ -21,12 +21,22 @@ Gate::Permit Gate::enter() {
   return Permit(this);
 }
 
+Gate::Permit Gate::enter_behind() {
+  std::unique_lock lock(mutex_);
+  freed_further_.wait(lock, [this] { return closed_ || (inside_ < slots_ && waiting_ == 0); });
+  if (closed_) throw ProblemError(api::Code::draining, "the server is stopping");
+  ++inside_;
+  return Permit(this);
+}
+
 void Gate::leave() {
+  bool awaited = false;
   {
     const std::lock_guard lock(mutex_);
     --inside_;
+    awaited = waiting_ > 0;
   }
-  freed_.notify_one();
+  (awaited ? freed_ : freed_further_).notify_one();
 }
 
 void Gate::close() {
@@ -35,6 +45,7 @@ void Gate::close() {
     closed_ = true;
   }
   freed_.notify_all();
+  freed_further_.notify_all();
 }
 
 Gate::Counts Gate::counts() const {

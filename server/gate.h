@@ -33,6 +33,9 @@ class Gate {
   /// Waits for a slot. @throws ProblemError(overloaded) when too many wait already, ProblemError(draining) once closed
   [[nodiscard]] Permit enter();
 
+  /// Waits for a slot that nobody in enter() waits for, without a bound. @throws ProblemError(draining) once closed
+  [[nodiscard]] Permit enter_behind();
+
   /// Turns away everybody who waits or comes later.
   void close();
 
@@ -49,7 +52,8 @@ class Gate {
   const std::size_t slots_;
   const std::size_t max_waiting_;
   mutable std::mutex mutex_;
-  std::condition_variable freed_;
+  std::condition_variable freed_;          ///< for those in enter()
+  std::condition_variable freed_further_;  ///< for those behind them
   std::size_t inside_ = 0;
   std::size_t waiting_ = 0;
   bool closed_ = false;

@@ -86,9 +86,25 @@ HttpRequest request_of(const httplib::Request& from) {
   return request;
 }
 
+void stream_to(httplib::Response& to, const std::string& content_type, BodyStream stream) {
+  to.set_chunked_content_provider(content_type, [stream = std::move(stream)](std::size_t, httplib::DataSink& sink) {
+    const std::optional<std::string> piece = stream();
+    if (!piece) {
+      sink.done();
+    } else if (!piece->empty()) {
+      return sink.write(piece->data(), piece->size());
+    }
+    return sink.is_writable();
+  });
+}
+
 void write_to(httplib::Response& to, HttpResponse from) {
   to.status = from.status;
   for (auto& [name, value] : from.headers) to.set_header(name, value);
+  if (from.stream) {
+    stream_to(to, from.content_type, std::move(from.stream));
+    return;
+  }
   if (!from.content_type.empty()) to.set_header("Content-Type", from.content_type);
   to.body = std::move(from.body);
 }
@@ -120,14 +136,13 @@ class HttpServer::Library final : public httplib::Server {
   void log(const Exchange& exchange, int status, double milliseconds) const;
   void install_handlers();
   HandlerResponse route(const httplib::Request& request, httplib::Response& response);
-  [[nodiscard]] bool awaits_body(const httplib::Request& request) const;
+  [[nodiscard]] std::size_t max_bytes(Body kind) const;
 
   const Router& router_;
   const HttpServerSettings settings_;
   Gate receiving_;
   ByteBudget upload_memory_;
-  const UploadBounds bounds_;
-  const std::vector<std::string> upload_paths_;
+  const BodyBounds bounds_;
   std::mutex run_mutex_;
   bool entered_ = false;  ///< run() has decided to serve
   std::atomic<bool> finished_ = false;
@@ -139,10 +154,9 @@ class HttpServer::Library final : public httplib::Server {
 HttpServer::Library::Library(const Router& router, Gate& uploads, const HttpServerSettings& settings)
     : router_(router),
       settings_(settings),
-      receiving_("uploads", settings.receiving_uploads, 0),
+      receiving_("request bodies", settings.receiving_uploads, 0),
       upload_memory_(settings.upload_memory),
-      bounds_{receiving_, upload_memory_, uploads},
-      upload_paths_(router.upload_patterns()) {
+      bounds_{receiving_, upload_memory_, uploads} {
   new_task_queue = [] { return new Immediately; };
   set_tcp_nodelay(true);
   set_socket_options([](socket_t socket) {
@@ -155,20 +169,21 @@ HttpServer::Library::Library(const Router& router, Gate& uploads, const HttpServ
 
 void HttpServer::Library::install_handlers() {
   set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) { return route(request, response); });
-  for (const std::string& path : upload_paths_) {
-    Post(path, [this](const httplib::Request& from, httplib::Response& to, const httplib::ContentReader& reader) {
-      HttpRequest request = request_of(from);
-      write_to(to, router_.handle(request, [&](HttpRequest& r) { r.upload = read_upload(from, reader, bounds_); }));
-    });
-  }
+  // Only requests whose route takes a body come here, see route(), and their paths are short enough for this expression.
+  const HandlerWithContentReader with_body = [this](const httplib::Request& from, httplib::Response& to,
+                                                    const httplib::ContentReader& reader) {
+    HttpRequest request = request_of(from);
+    write_to(to, router_.handle(request, [&](HttpRequest& r, Body kind) { r.body = read_body(from, reader, kind, bounds_); }));
+  };
+  Post("[^]*", with_body);
+  Patch("[^]*", with_body);
   set_expect_100_continue_handler([this](const httplib::Request& request, httplib::Response& response) {
-    if (awaits_body(request)) {
-      if (const auto refusal = refuse_body(request, settings_.max_body_bytes)) {
-        write_to(response, problem_response(*refusal, request.get_header_value(id_header)));
-        return response.status;
-      }
-    }
-    return 100;
+    const Body kind = router_.body_of(request.method, request.path);
+    if (kind == Body::none) return 100;
+    const auto refusal = refuse_body(request, kind, max_bytes(kind));
+    if (!refusal) return 100;
+    write_to(response, problem_response(*refusal, request.get_header_value(id_header)));
+    return response.status;
   });
   // What the library answers by itself, before any handler saw the request.
   set_error_handler(HandlerWithResponse([](const httplib::Request& request, httplib::Response& response) {
@@ -186,18 +201,16 @@ void HttpServer::Library::install_handlers() {
   });
 }
 
-bool HttpServer::Library::awaits_body(const httplib::Request& request) const {
-  return request.method == "POST" && std::find(upload_paths_.begin(), upload_paths_.end(), request.path) != upload_paths_.end();
-}
+std::size_t HttpServer::Library::max_bytes(Body kind) const { return kind == Body::json ? max_json_bytes : settings_.max_body_bytes; }
 
 httplib::Server::HandlerResponse HttpServer::Library::route(const httplib::Request& from, httplib::Response& to) {
-  if (awaits_body(from)) {
-    const auto refusal = refuse_body(from, settings_.max_body_bytes);
+  if (const Body kind = router_.body_of(from.method, from.path); kind != Body::none) {
+    const auto refusal = refuse_body(from, kind, max_bytes(kind));
     if (!refusal) return HandlerResponse::Unhandled;  // goes on to the content reader
     write_to(to, problem_response(*refusal, from.get_header_value(id_header)));
   } else {
     HttpRequest request = request_of(from);
-    write_to(to, router_.handle(request, [](HttpRequest&) {}));
+    write_to(to, router_.handle(request, [](HttpRequest&, Body) {}));
   }
   return HandlerResponse::Handled;
 }

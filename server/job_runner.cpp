@@ -34,7 +34,10 @@ std::optional<JobStatus> JobRunner::status(const std::string& key) const {
   const std::lock_guard lock(mutex_);
   const auto found = active_.find(key);
   if (found == active_.end()) return std::nullopt;
-  return found->second->status;
+  JobStatus status = found->second->status;
+  const auto place = std::find(queue_.begin(), queue_.end(), found->second);
+  if (place != queue_.end()) status.position = static_cast<std::size_t>(place - queue_.begin());
+  return status;
 }
 
 bool JobRunner::wait(const std::string& key, Clock::time_point deadline) const {

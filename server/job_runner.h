@@ -22,7 +22,8 @@ namespace spherematch {
 struct JobStatus {
   bool running = false;  ///< false until it is started for the first time
   std::string stage;
-  double progress = 0;  ///< in [0, 1]; never falls
+  double progress = 0;       ///< in [0, 1]; never falls
+  std::size_t position = 0;  ///< how many jobs are in front of it in the queue; 0 when it is not queued
 };
 
 /// Thread-safe. Of one key at most one job is active (queued or running) at a time.

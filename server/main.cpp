@@ -43,6 +43,12 @@ ShapeServiceSettings shape_settings(const ServerOptions& options) {
           .read_limits = {.max_vertices = options.max_vertices}};
 }
 
+MatchServiceSettings match_settings(const ServerOptions& options) {
+  return {.memory_bytes = static_cast<std::size_t>(options.match_cache_mib) << 20};
+}
+
+MatchJobsSettings job_settings(const ServerOptions& options) { return {.workers = static_cast<std::size_t>(options.concurrent_matches)}; }
+
 constexpr std::size_t waiting_uploads = 16;
 
 /// One thread for everybody who may legitimately wait, send or compute, and a dozen more, so that short requests always find one.
@@ -103,11 +109,17 @@ int serve(const ServerOptions& options) {
   Gate matches("matches", static_cast<std::size_t>(options.concurrent_matches), static_cast<std::size_t>(options.waiting_matches));
   Gate uploads("uploads", static_cast<std::size_t>(options.concurrent_uploads), waiting_uploads);
   std::stop_source stop;
-  const ServerContext context{options, SPHEREMATCH_VERSION, engine, shapes, matches, stop.get_token()};
+  MatchStore match_store(store, static_cast<std::size_t>(options.match_store_mib) << 20);
+  MatchService match_service(shapes, match_store, engine, matches, stop.get_token(), match_settings(options));
+  JobStore jobs(store);
+  MatchJobs match_jobs(jobs, shapes, match_service, job_settings(options));
+  const ServerContext context{options, SPHEREMATCH_VERSION, engine, shapes, matches, match_service, match_jobs, jobs, stop.get_token()};
   Router router;
   add_system_routes(router, context);
   add_shape_routes(router, context);
   add_match_routes(router, context);
+  add_match_post_routes(router, context);
+  add_job_routes(router, context);
   HttpServer server(router, uploads, http_settings(options));
   const int port = server.bind(options.host, options.port);
 
@@ -124,6 +136,7 @@ int serve(const ServerOptions& options) {
   matches.close();
   uploads.close();
   server.stop();
+  match_jobs.stop();
   shapes.stop();
   serving.join();
   watchdog.request_stop();

@@ -1,7 +1,5 @@
 #include "server/match_response.h"
 
-#include <cstdio>
-
 #include "server/problem.h"
 
 namespace spherematch {
@@ -14,6 +12,13 @@ std::vector<std::array<Scalar, 3>> rows_of(const Matrix& matrix) {
   rows.reserve(static_cast<std::size_t>(matrix.rows()));
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) rows.push_back({matrix(i, 0), matrix(i, 1), matrix(i, 2)});
   return rows;
+}
+
+template <typename Map>
+void select(Map& to, const Correspondence& from, const MatchFields& fields) {
+  if (fields.vertex) to.vertex = from.vertex;
+  if (fields.corners) to.corners = rows_of<std::int32_t>(from.corners);
+  if (fields.bary) to.bary = rows_of<float>(from.bary);
 }
 
 }  // namespace
@@ -42,28 +47,28 @@ std::string canonical(const MatchFields& fields) {
   return std::string(fields.vertex ? "vertex," : "") + (fields.corners ? "corners," : "") + (fields.bary ? "bary" : "");
 }
 
-api::Match match_of(const MatchResult& result, const MatchFields& fields) {
+api::Match match_of(const MatchQuery& query, const MatchAnswer& answer, const MatchFields& fields, std::int32_t n_tgt,
+                    const std::string& engine) {
+  const MatchResult& result = *answer.result;
   api::Match match;
+  match.src = query.src;
+  match.tgt = query.tgt;
   match.n_src = static_cast<std::int32_t>(result.map.vertex.size());
-  if (fields.vertex) match.vertex = result.map.vertex;
-  if (fields.corners) match.corners = rows_of<std::int32_t>(result.map.corners);
-  if (fields.bary) match.bary = rows_of<float>(result.map.bary);
+  match.n_tgt = n_tgt;
+  select(match, result.map, fields);
+  if (query.parameters.both) {
+    match.reverse = api::ReverseMap{.n_src = n_tgt, .n_tgt = match.n_src, .vertex = {}, .corners = {}, .bary = {}};
+    select(*match.reverse, result.reverse, fields);
+  }
+  match.orientation = result.reversed ? "reverse" : "preserve";
   match.quality = result.quality;
   for (const CandidateSummary& candidate : result.candidates) {
     match.candidates.push_back({candidate.rotation, candidate.correlation, candidate.score, candidate.chosen});
   }
   match.seconds = result.seconds;
+  match.cached = answer.cached();
+  match.engine = engine;
   return match;
-}
-
-std::string server_timing(const StageSeconds& seconds) {
-  std::string text;
-  for (const auto& [stage, value] : seconds) {
-    std::array<char, 32> milliseconds{};
-    std::snprintf(milliseconds.data(), milliseconds.size(), ";dur=%.1f", value * 1000);
-    text.append(text.empty() ? "" : ", ").append(stage).append(milliseconds.data());
-  }
-  return text;
 }
 
 }  // namespace spherematch

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "api/types.h"
-#include "engine/data/correspondence.h"
+#include "server/match_service.h"
 
 namespace spherematch {
 
@@ -22,10 +22,8 @@ struct MatchFields {
 /// The same text for the same selection, whatever its order.
 [[nodiscard]] std::string canonical(const MatchFields& fields);
 
-/// Everything but src, tgt, n_tgt and engine, which the caller knows.
-[[nodiscard]] api::Match match_of(const MatchResult& result, const MatchFields& fields);
-
-/// Stage seconds as the value of a Server-Timing header, in milliseconds.
-[[nodiscard]] std::string server_timing(const StageSeconds& seconds);
+/// With the reverse map where the query asks for both.
+[[nodiscard]] api::Match match_of(const MatchQuery& query, const MatchAnswer& answer, const MatchFields& fields, std::int32_t n_tgt,
+                                  const std::string& engine);
 
 }  // namespace spherematch

@@ -35,6 +35,8 @@ void describe(CLI::App& app, ServerOptions& o) {
       ->check(CLI::Range(0, 16));
   add_flag(app, "concurrent-uploads", o.concurrent_uploads, "Uploads read at once")->check(CLI::Range(1, 8));
   add_flag(app, "shape-cache-mib", o.shape_cache_mib, "Memory for prepared shapes in MiB")->check(CLI::Range(0, 1'000'000));
+  add_flag(app, "match-cache-mib", o.match_cache_mib, "Memory for results of matches in MiB")->check(CLI::Range(0, 1'000'000));
+  add_flag(app, "match-store-mib", o.match_store_mib, "Space in the store for results of matches in MiB")->check(CLI::Range(0, 1'000'000));
   add_flag(app, "log-level", o.log_level, "Least level logged to standard error")
       ->check(CLI::IsMember({"debug", "info", "warn", "error", "off"}));
 }

@@ -25,6 +25,8 @@ struct ServerOptions {
   int waiting_matches = 16;
   int concurrent_uploads = 4;
   int shape_cache_mib = 256;
+  int match_cache_mib = 64;
+  int match_store_mib = 1024;
   std::string log_level = "info";
 
   [[nodiscard]] std::size_t max_body_bytes() const { return static_cast<std::size_t>(max_body_mib) << 20; }

@@ -1,6 +1,24 @@
 #include "server/parameters_json.h"
 
+#include <utility>
+
 namespace spherematch {
+
+namespace {
+
+const char* name_of(Orientation orientation) {
+  switch (orientation) {
+    case Orientation::preserve:
+      return "preserve";
+    case Orientation::reverse:
+      return "reverse";
+    case Orientation::any:
+      break;
+  }
+  return "any";
+}
+
+}  // namespace
 
 // The structs are taken apart rather than read member by member: a new field then does not compile until it is listed here.
 // Entity tags are made of these texts, so a field that is left out would let two different results share a tag.
@@ -26,7 +44,9 @@ api::Json to_json(const PreprocessParameters& parameters) {
 
 api::Json to_json(const MatchParameters& parameters) {
   const auto& [rotation_time, rotation_bandwidth, max_candidates, candidate_separation, candidate_threshold, flow_times, flow_resolution,
-               flow_iterations, flow_smoothness, fine_candidates, paper_selection] = parameters;
+               flow_iterations, flow_smoothness, fine_candidates, paper_selection, orientation, hints, both] = parameters;
+  api::Json pairs = api::Json::array();
+  for (const auto& [source, target] : hints) pairs.push_back({source, target});
   return {{"rotation_time", rotation_time},
           {"rotation_bandwidth", rotation_bandwidth},
           {"max_candidates", max_candidates},
@@ -37,7 +57,10 @@ api::Json to_json(const MatchParameters& parameters) {
           {"flow_iterations", flow_iterations},
           {"flow_smoothness", flow_smoothness},
           {"fine_candidates", fine_candidates},
-          {"paper_selection", paper_selection}};
+          {"paper_selection", paper_selection},
+          {"orientation", name_of(orientation)},
+          {"hints", std::move(pairs)},
+          {"both", both}};
 }
 
 }  // namespace spherematch

@@ -10,6 +10,7 @@ namespace spherematch {
 namespace {
 
 constexpr std::string_view placeholder = "{id}";
+constexpr std::size_t max_id_bytes = 128;
 
 /// The text in place of {id}, empty where the pattern has none; nothing when the path does not fit.
 std::optional<std::string_view> fit(std::string_view pattern, std::string_view path) {
@@ -20,7 +21,7 @@ std::optional<std::string_view> fit(std::string_view pattern, std::string_view p
   path.remove_prefix(at);
   if (!path.ends_with(tail)) return std::nullopt;
   path.remove_suffix(tail.size());
-  if (path.empty() || path.find('/') != std::string_view::npos) return std::nullopt;
+  if (path.empty() || path.size() > max_id_bytes || path.find('/') != std::string_view::npos) return std::nullopt;
   return path;
 }
 
@@ -49,10 +50,10 @@ const Router::Route& Router::find(HttpRequest& request) const {
   throw ProblemError(problem, {{"Allow", allow}});
 }
 
-HttpResponse Router::handle(HttpRequest& request, const std::function<void(HttpRequest&)>& read_body) const {
+HttpResponse Router::handle(HttpRequest& request, const ReadBody& read_body) const {
   try {
     const Route& route = find(request);
-    if (route.body == Body::upload) read_body(request);
+    if (route.body != Body::none) read_body(request, route.body);
     return route.handler(request);
   } catch (...) {
     return problem_response(problem_of(std::current_exception()), request.request_id);
@@ -64,12 +65,10 @@ std::string_view Router::pattern_of(std::string_view path) const {
   return found == routes_.end() ? std::string_view("-") : std::string_view(found->pattern);
 }
 
-std::vector<std::string> Router::upload_patterns() const {
-  std::vector<std::string> patterns;
-  for (const Route& route : routes_) {
-    if (route.body == Body::upload) patterns.push_back(route.pattern);
-  }
-  return patterns;
+Body Router::body_of(std::string_view method, std::string_view path) const {
+  const auto found = std::find_if(routes_.begin(), routes_.end(),
+                                  [&](const Route& route) { return route.method == method && fit(route.pattern, path).has_value(); });
+  return found == routes_.end() ? Body::none : found->body;
 }
 
 }  // namespace spherematch

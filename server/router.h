@@ -10,14 +10,20 @@
 
 namespace spherematch {
 
-enum class Body { none, upload };
+/// What a route takes as its body, and so how much of it is read and how.
+enum class Body {
+  none,
+  json,    ///< a document of at most max_json_bytes
+  array,   ///< bytes as they are, as many as an upload may have
+  upload,  ///< a mesh: bytes as they are, or the multipart field `file`
+};
 
 /// Routes are added before the first request; after that every function is thread-safe.
 class Router {
  public:
   struct Route {
     std::string method;
-    std::string pattern;  ///< for example "/shapes/{id}/sphere"; {id} stands for one non-empty segment
+    std::string pattern;  ///< for example "/shapes/{id}/sphere"; {id} stands for one segment of 1 to 128 bytes
     Body body = Body::none;
     Handler handler;
   };
@@ -28,14 +34,16 @@ class Router {
   /// @throws ProblemError(not_found), ProblemError(method_not_allowed) with an Allow header
   const Route& find(HttpRequest& request) const;
 
+  /// Reads the body into a request for a route that takes this kind of body.
+  using ReadBody = std::function<void(HttpRequest&, Body)>;
   /// Answers in every case. `read_body` is called for a route that takes a body, before the handler.
-  [[nodiscard]] HttpResponse handle(HttpRequest& request, const std::function<void(HttpRequest&)>& read_body) const;
+  [[nodiscard]] HttpResponse handle(HttpRequest& request, const ReadBody& read_body) const;
 
   /// The pattern that the path fits, for logs; "-" when there is none.
   [[nodiscard]] std::string_view pattern_of(std::string_view path) const;
 
-  /// Patterns of the routes that take a body.
-  [[nodiscard]] std::vector<std::string> upload_patterns() const;
+  /// What the route of this request takes; none where there is no such route.
+  [[nodiscard]] Body body_of(std::string_view method, std::string_view path) const;
 
  private:
   std::vector<Route> routes_;

@@ -5,10 +5,11 @@
 
 #include "api/json.h"
 #include "engine/io/map_format.h"
+#include "engine/io/map_writer.h"
 #include "server/conditional.h"
+#include "server/match_query.h"
 #include "server/match_response.h"
 #include "server/negotiation.h"
-#include "server/parameters_json.h"
 #include "server/problem.h"
 #include "server/request_parameters.h"
 #include "server/server_context.h"
@@ -27,77 +28,86 @@ constexpr std::array<Representation, 8> representations{{
     {"obj", "model/obj"},
     {"png", "image/png"},
 }};
-constexpr std::array<std::string_view, 2> methods{"default", "paper"};
-constexpr std::array<std::string_view, 2> cache_modes{"yes", "no"};
+constexpr std::array<std::string_view, 2> no_or_yes{"no", "yes"};
 
-struct MatchQuery {
-  std::string src;
-  std::string tgt;
+struct MatchRequest {
+  MatchQuery query;
   const Representation* representation = nullptr;
   MatchFields fields;
-  MatchParameters parameters;
   std::chrono::milliseconds wait{};
+  MatchService::Cache cache = MatchService::Cache::use;
 };
 
-MatchQuery parse_query(const HttpRequest& request) {
-  const RequestParameters parameters(request, {"src", "tgt", "format", "fields", "wait", "cache", "method"});
-  MatchQuery query;
-  query.src = parameters.required("src");
-  query.tgt = parameters.required("tgt");
-  query.representation = &choose_representation(parameters.text("format"), request.header("accept"), representations);
+MatchRequest parse(const HttpRequest& from) {
+  const RequestParameters parameters(from, {"src", "tgt", "format", "fields", "wait", "cache", "method", "orientation", "hints", "both"});
+  MatchRequest request;
+  request.query = match_query_of(parameters);
+  request.representation = &choose_representation(parameters.text("format"), from.header("accept"), representations);
+  const std::string_view format = request.representation->format;
   if (const auto fields = parameters.text("fields")) {
-    if (query.representation->format != "json") {
-      throw ProblemError(api::Code::invalid_parameter, "fields: applies to JSON only; the other formats are whole");
-    }
-    query.fields = parse_fields(*fields);
+    if (format != "json") throw ProblemError(api::Code::invalid_parameter, "fields: applies to JSON only; the other formats are whole");
+    request.fields = parse_fields(*fields);
   }
-  query.wait = parameters.seconds("wait", 30, max_wait_seconds);
-  if (parameters.choice("method", methods) == "paper") query.parameters = MatchParameters::paper();
-  // Nothing keeps results yet, so both values mean a fresh computation; the value is checked all the same.
-  (void)parameters.choice("cache", cache_modes);
-  return query;
+  request.query.parameters.both = parameters.choice("both", no_or_yes) == "yes";
+  if (request.query.parameters.both && format != "json" && format != "npz") {
+    throw ProblemError(api::Code::invalid_parameter, "both: applies to json and npz only; ask for the other direction by itself");
+  }
+  request.wait = parameters.seconds("wait", 30, max_wait_seconds);
+  request.cache = cache_of(parameters);
+  return request;
 }
 
-std::string etag_of(const ServerContext& context, const MatchQuery& query) {
-  return weak_etag({"match", query.src, query.tgt, to_json(query.parameters).dump(), context.engine.version(), query.representation->format,
-                    canonical(query.fields)});
+/// What an answer needs besides the map, read before the match: a shape that is removed meanwhile then does not spoil the end.
+struct Ingredients {
+  std::int32_t n_tgt = 0;
+  ShapePointer source;      ///< with the target, for formats that draw surfaces
+  ShapePointer target;      ///<
+  PolygonMesh source_mesh;  ///< for formats that repeat the upload
+};
+
+Ingredients gather(const ServerContext& context, const MatchRequest& request, const std::optional<MapFormat>& format) {
+  Ingredients ingredients;
+  ingredients.n_tgt = context.shapes.get(request.query.tgt).vertices;
+  if (format && needs_surfaces(*format)) {
+    ingredients.source = context.shapes.load(request.query.src);
+    ingredients.target = context.shapes.load(request.query.tgt);
+  }
+  if (format && needs_source_mesh(*format)) ingredients.source_mesh = context.shapes.load_mesh(request.query.src);
+  return ingredients;
 }
 
-std::string encode_json(const ServerContext& context, const MatchQuery& query, const MatchResult& result, std::int32_t n_tgt) {
-  api::Match match = match_of(result, query.fields);
-  match.src = query.src;
-  match.tgt = query.tgt;
-  match.n_tgt = n_tgt;
-  match.engine = context.engine.version();
-  return api::to_text(api::to_json(match)) + "\n";
+std::string encode(const ServerContext& context, const MatchRequest& request, const std::optional<MapFormat>& format,
+                   const MatchAnswer& answer, Ingredients ingredients) {
+  const MatchResult& result = *answer.result;
+  if (!format) {
+    const api::Match match = match_of(request.query, answer, request.fields, ingredients.n_tgt, context.engine.version());
+    return api::to_text(api::to_json(match)) + "\n";
+  }
+  if (*format == MapFormat::npz && request.query.parameters.both) return encode_npz(result.map, result.reverse);
+  const Surface none;
+  return encode_map(*format, result.map, ingredients.source ? ingredients.source->surface : none,
+                    ingredients.target ? ingredients.target->surface : none, std::move(ingredients.source_mesh));
 }
 
-HttpResponse compute(const ServerContext& context, const MatchQuery& query) {
-  const auto deadline = ShapeService::Clock::now() + query.wait;
-  context.shapes.require_ready(query.src, deadline);
-  context.shapes.require_ready(query.tgt, deadline);
-  // Only from here on is memory and time spent, so the bound stands here and waiting for a preparation takes no slot.
-  const Gate::Permit permit = context.matches.enter();
-  const ShapePointer source = context.shapes.load(query.src);
-  const ShapePointer target = context.shapes.load(query.tgt);
-  const std::optional<MapFormat> format = map_format_of(query.representation->format);
-  PolygonMesh source_mesh;  // before the match, so that a shape that is removed meanwhile does not spoil the end
-  if (format && needs_source_mesh(*format)) source_mesh = context.shapes.load_mesh(query.src);
-  const MatchResult result = context.engine.match(*source, *target, query.parameters, {.report = {}, .stop = context.stop});
+HttpResponse compute(const ServerContext& context, const MatchRequest& request) {
+  await_shapes(context.shapes, request.query, request.wait);
+  const std::optional<MapFormat> format = map_format_of(request.representation->format);
+  Ingredients ingredients = gather(context, request, format);
+  const MatchAnswer answer = context.match_service.get(request.query, request.cache);
   return {.status = 200,
-          .content_type = std::string(query.representation->media_type),
-          .body = format ? encode_map(*format, result.map, source->surface, target->surface, std::move(source_mesh))
-                         : encode_json(context, query, result, target->surface.uploaded_vertices()),
-          .headers = {{"Server-Timing", server_timing(result.seconds)}}};
+          .content_type = std::string(request.representation->media_type),
+          .body = encode(context, request, format, answer, std::move(ingredients)),
+          .headers = {{"Server-Timing", server_timing(answer)}}};
 }
 
-HttpResponse get_match(const ServerContext& context, const HttpRequest& request) {
-  const MatchQuery query = parse_query(request);
-  context.shapes.require_usable(query.src);
-  context.shapes.require_usable(query.tgt);
-  const std::string etag = etag_of(context, query);
+HttpResponse get_match(const ServerContext& context, const HttpRequest& from) {
+  const MatchRequest request = parse(from);
+  context.shapes.require_usable(request.query.src);
+  context.shapes.require_usable(request.query.tgt);
+  const std::string etag =
+      weak_etag({"match", context.match_service.key_of(request.query), request.representation->format, canonical(request.fields)});
   HttpResponse response{.status = 304, .content_type = {}, .body = {}, .headers = {}};
-  if (!names_etag(request.header("if-none-match"), etag)) response = compute(context, query);
+  if (!names_etag(from.header("if-none-match"), etag)) response = compute(context, request);
   response.headers.emplace_back("ETag", etag);
   response.headers.emplace_back("Cache-Control", "private, no-cache");
   response.headers.emplace_back("Vary", "Accept");

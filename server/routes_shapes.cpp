@@ -54,8 +54,8 @@ std::string form_advice(const HttpRequest& request, std::string_view bytes, Erro
   return {};
 }
 
-ShapeService::Posted post_upload(const ServerContext& context, const HttpRequest& request, const Upload& upload, const std::string& name,
-                                 RepairMode repair) {
+ShapeService::Posted post_upload(const ServerContext& context, const HttpRequest& request, const RequestBody& upload,
+                                 const std::string& name, RepairMode repair) {
   try {
     const std::string& file_name = upload.file_name.empty() ? name : upload.file_name;
     return context.shapes.post(std::as_bytes(std::span(upload.bytes)), name, file_name, repair);
@@ -68,11 +68,11 @@ ShapeService::Posted post_upload(const ServerContext& context, const HttpRequest
 
 HttpResponse post_shape(const ServerContext& context, HttpRequest& request) {
   const RequestParameters parameters(request, {"name", "repair", "wait"});
-  const std::string name = shape_name(parameters, request.upload.file_name);
+  const std::string name = shape_name(parameters, request.body.file_name);
   const RepairMode repair = parameters.choice("repair", repair_modes) == "fill" ? RepairMode::fill : RepairMode::none;
   const auto wait = parameters.seconds("wait", 0, max_wait_seconds);
 
-  auto upload = std::make_unique<Upload>(std::exchange(request.upload, {}));
+  auto upload = std::make_unique<RequestBody>(std::exchange(request.body, {}));
   const auto [id, known] = post_upload(context, request, *upload, name, repair);
   upload.reset();  // the wait may be long, and others may need the memory
   context.shapes.wait_until_finished(id, ShapeService::Clock::now() + wait);
@@ -107,6 +107,7 @@ HttpResponse get_shape(const ServerContext& context, const HttpRequest& request)
 HttpResponse delete_shape(const ServerContext& context, const HttpRequest& request) {
   const RequestParameters parameters(request, {});
   context.shapes.remove(request.id);
+  context.match_service.forget(request.id);
   return {.status = 204, .content_type = {}, .body = {}, .headers = {}};
 }
 

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <set>
 
+#include "server/memory_size.h"
 #include "server/problem.h"
 #include "server/shape_json.h"
 #include "storage/content_id.h"
@@ -134,6 +135,17 @@ void ShapeService::remove(const std::string& id) {
   spdlog::info("event=shape_removed shape={}", id);
 }
 
+void ShapeService::require_known(const std::string& id) const { (void)record_of(id); }
+
+void ShapeService::cancel_preparation(const std::string& id) {
+  (void)record_of(id);
+  if (!store_.mark_failed(id, api::entry_of(api::Code::cancelled).wire, "the preparation was cancelled by a request")) {
+    throw ProblemError(api::Code::job_finished, "the preparation has ended; DELETE /shapes/" + id + " removes the shape");
+  }
+  jobs_.cancel(id);
+  spdlog::info("event=preparation_cancelled shape={}", id);
+}
+
 void ShapeService::require_usable(const std::string& id) const {
   const ShapeRecord record = record_of(id);
   if (record.state == ShapeState::failed) throw failed(record);
@@ -165,7 +177,7 @@ ShapePointer ShapeService::load(const std::string& id) {
   if (ShapePointer cached = cache_.find(id)) return cached;
   try {
     ShapePointer shape = store_.load_prepared(id);
-    cache_.put(id, shape);
+    cache_.put(id, shape, memory_size(*shape));
     return shape;
   } catch (const StorageError& error) {
     if (error.code() != StorageErrorCode::corrupt_blob && error.code() != StorageErrorCode::unknown_version) throw;
@@ -231,7 +243,7 @@ void ShapeService::compute(const std::string& id, const Progress& progress) {
   const auto shape = std::make_shared<const PreprocessedShape>(engine_.preprocess(store_.load_surface(id), stages.progress()));
   progress.check();
   const bool saved = store_.save_prepared(id, *shape);
-  if (saved) cache_.put(id, shape);
+  if (saved) cache_.put(id, shape, memory_size(*shape));
   spdlog::info("event=job_finished shape={} saved={} seconds={:.3f}{}", id, saved, seconds_since(started), text_of(shape->seconds));
 }
 

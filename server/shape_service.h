@@ -13,7 +13,7 @@
 #include "api/types.h"
 #include "server/engine_port.h"
 #include "server/job_runner.h"
-#include "server/shape_cache.h"
+#include "server/lru_cache.h"
 #include "storage/shape_store.h"
 
 namespace spherematch {
@@ -26,6 +26,8 @@ struct ShapeServiceSettings {
   std::chrono::milliseconds pause_after_loss{1000};  ///< of a worker whose preparation was lost: what it lacked may come back
   ReadLimits read_limits;
 };
+
+using ShapePointer = std::shared_ptr<const PreprocessedShape>;
 
 /// Thread-safe. Errors are thrown as ProblemError, EngineError or StorageError.
 class ShapeService {
@@ -53,6 +55,8 @@ class ShapeService {
   /// Cancels the preparation and removes the shape with everything derived from it. @throws ProblemError(not_found)
   void remove(const std::string& id);
 
+  /// @throws ProblemError(not_found)
+  void require_known(const std::string& id) const;
   /// @throws ProblemError(not_found), ProblemError(shape_failed)
   void require_usable(const std::string& id) const;
   /// Waits until the shape is ready for this engine, queueing its preparation where needed.
@@ -63,6 +67,11 @@ class ShapeService {
   /// The uploaded mesh, read again from the stored upload: its bytes and a small multiple of them in memory. @throws
   /// ProblemError(not_found)
   [[nodiscard]] PolygonMesh load_mesh(const std::string& id) const;
+
+  /// The preparation under way, if any.
+  [[nodiscard]] std::optional<JobStatus> preparation(const std::string& id) const { return jobs_.status(id); }
+  /// The shape becomes failed. @throws ProblemError(not_found), ProblemError(job_finished) when no preparation is under way
+  void cancel_preparation(const std::string& id);
 
   [[nodiscard]] JobRunner::Counts job_counts() const { return jobs_.counts(); }
 
@@ -85,7 +94,7 @@ class ShapeService {
   ShapeStore& store_;
   const EnginePort& engine_;
   const ShapeServiceSettings settings_;
-  ShapeCache cache_;
+  LruCache<PreprocessedShape> cache_;
   std::atomic<std::size_t> long_polls_ = 0;
   JobRunner jobs_;  ///< last: its workers use everything above
 };

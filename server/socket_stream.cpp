@@ -22,12 +22,16 @@ SocketStream::SocketStream(int socket, StreamLimits limits, const std::atomic<bo
 
 bool SocketStream::is_readable() const { return begin_ < end_ || wait_for(POLLIN, Clock::now()); }
 
-bool SocketStream::is_writable() const { return wait_for(POLLOUT, Clock::now()); }
+bool SocketStream::is_writable() const {
+  pollfd entry{.fd = socket_, .events = POLLOUT | POLLRDHUP, .revents = 0};
+  return ::poll(&entry, 1, 0) > 0 && (entry.revents & (POLLRDHUP | POLLERR | POLLHUP)) == 0;
+}
 
 ssize_t SocketStream::read(char* to, size_t size) {
   if (head_left_ == 0) return -1;
   if (begin_ == end_) {
-    if (!wait_for(POLLIN, deadline(opened_, received_))) return -1;
+    const auto now = Clock::now();
+    if (!wait_for(POLLIN, now + time_left(now - opened_, received_))) return -1;
     const ssize_t received = ::recv(socket_, buffer_.data(), buffer_.size(), 0);
     if (received <= 0) return received;
     received_ += static_cast<std::size_t>(received);
@@ -48,10 +52,11 @@ ssize_t SocketStream::write(const char* from, size_t size) {
   if (status_ < 200 && text.size() >= start.size() + 3 && text.starts_with(start)) {
     std::from_chars(from + start.size(), from + start.size() + 3, status_);
   }
-  if (sent_ == 0) first_written_ = Clock::now();
   std::size_t sent = 0;
   while (sent < size) {
-    if (!wait_for(POLLOUT, deadline(first_written_, sent_))) return -1;
+    const auto asked = Clock::now();
+    if (!wait_for(POLLOUT, asked + time_left(waited_to_send_, sent_))) return -1;
+    waited_to_send_ += Clock::now() - asked;
     const ssize_t count = ::send(socket_, from + sent, size - sent, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (count < 0 && errno != EAGAIN && errno != EINTR) return -1;
     if (count <= 0) continue;
@@ -61,9 +66,9 @@ ssize_t SocketStream::write(const char* from, size_t size) {
   return static_cast<ssize_t>(size);
 }
 
-SocketStream::Clock::time_point SocketStream::deadline(Clock::time_point start, std::size_t bytes) const {
+SocketStream::Clock::duration SocketStream::time_left(Clock::duration taken, std::size_t bytes) const {
   const auto earned = std::chrono::milliseconds(1000 * bytes / limits_.least_rate);
-  return std::min(start + limits_.patience + earned, Clock::now() + limits_.idle);
+  return std::min<Clock::duration>(limits_.patience + earned - taken, limits_.idle);
 }
 
 void SocketStream::get_remote_ip_and_port(std::string& ip, int& port) const {

@@ -28,7 +28,7 @@ class SocketStream final : public httplib::Stream {
   SocketStream(int socket, StreamLimits limits, const std::atomic<bool>& stopping);
 
   [[nodiscard]] bool is_readable() const override;
-  [[nodiscard]] bool is_writable() const override;
+  [[nodiscard]] bool is_writable() const override;  ///< false also when the peer has closed its end
   ssize_t read(char* to, size_t size) override;
   ssize_t write(const char* from, size_t size) override;
   void get_remote_ip_and_port(std::string& ip, int& port) const override;
@@ -48,17 +48,17 @@ class SocketStream final : public httplib::Stream {
  private:
   using Clock = std::chrono::steady_clock;
   [[nodiscard]] bool wait_for(short events, Clock::time_point deadline) const;
-  /// Until when the next of so many bytes must come or go.
-  [[nodiscard]] Clock::time_point deadline(Clock::time_point start, std::size_t bytes) const;
+  /// How long the peer may take for the next of so many bytes, when it took `taken` for those before.
+  [[nodiscard]] Clock::duration time_left(Clock::duration taken, std::size_t bytes) const;
 
   const int socket_;
   const StreamLimits limits_;
   const std::atomic<bool>& stopping_;
   const Clock::time_point opened_;
-  Clock::time_point first_written_;
   std::size_t received_ = 0;
   std::size_t sent_ = 0;
-  std::array<char, 16384> buffer_;  ///< the library asks for headers byte by byte
+  Clock::duration waited_to_send_{};  ///< the time in which the response waited for the peer, not for its own making
+  std::array<char, 16384> buffer_;    ///< the library asks for headers byte by byte
   std::size_t head_left_ = max_head_bytes;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;

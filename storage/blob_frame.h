@@ -12,7 +12,7 @@
 namespace spherematch {
 
 /// The numbers are stored: never reuse one.
-enum class BlobKind : std::uint8_t { upload = 1, surface = 2, sphere = 3, signals = 4, eigenbasis = 5 };
+enum class BlobKind : std::uint8_t { upload = 1, surface = 2, sphere = 3, signals = 4, eigenbasis = 5, match = 6 };
 
 enum class BlobCompression { none, where_it_helps };
 

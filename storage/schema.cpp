@@ -65,7 +65,47 @@ CREATE TABLE blobs (
 
 constexpr const char* count_attempts = "ALTER TABLE shapes ADD COLUMN attempts INTEGER NOT NULL DEFAULT 0;";
 
-constexpr std::array steps{first_schema, count_attempts};
+// Results of matches, and jobs of many pairs. `used_at` (seconds since 1970) says what may go when the table grows too large; the
+// index holds all that this decision needs. A pair of a job has a `line` once it is finished: its place among the results.
+constexpr const char* matches_and_jobs = R"sql(
+CREATE TABLE matches (
+  key TEXT NOT NULL UNIQUE,
+  source INTEGER NOT NULL REFERENCES shapes (sequence) ON DELETE CASCADE,
+  target INTEGER NOT NULL REFERENCES shapes (sequence) ON DELETE CASCADE,
+  engine TEXT NOT NULL,
+  used_at INTEGER NOT NULL,
+  bytes INTEGER NOT NULL,
+  data BLOB NOT NULL
+) STRICT;
+CREATE INDEX matches_used ON matches (used_at, bytes);
+CREATE INDEX matches_source ON matches (source, engine);
+CREATE INDEX matches_target ON matches (target, engine);
+CREATE TABLE match_jobs (
+  sequence INTEGER PRIMARY KEY AUTOINCREMENT,
+  id TEXT NOT NULL UNIQUE,
+  options TEXT NOT NULL,
+  state TEXT NOT NULL CHECK (state IN ('queued', 'processing', 'succeeded', 'cancelled')),
+  pairs INTEGER NOT NULL,
+  created_at TEXT NOT NULL,
+  started_at TEXT,
+  finished_at TEXT
+) STRICT;
+CREATE TABLE match_job_pairs (
+  job INTEGER NOT NULL REFERENCES match_jobs (sequence) ON DELETE CASCADE,
+  position INTEGER NOT NULL,
+  source TEXT NOT NULL,
+  target TEXT NOT NULL,
+  line INTEGER,
+  error_code TEXT NOT NULL DEFAULT '',
+  error_detail TEXT NOT NULL DEFAULT '',
+  PRIMARY KEY (job, position)
+) STRICT, WITHOUT ROWID;
+CREATE UNIQUE INDEX match_job_lines ON match_job_pairs (job, line) WHERE line IS NOT NULL;
+ALTER TABLE shapes ADD COLUMN started_at TEXT;
+ALTER TABLE shapes ADD COLUMN finished_at TEXT;
+)sql";
+
+constexpr std::array steps{first_schema, count_attempts, matches_and_jobs};
 
 int pragma(SQLite::Database& database, const char* name) { return database.execAndGet(std::string("PRAGMA ") + name).getInt(); }
 

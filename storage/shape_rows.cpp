@@ -137,7 +137,8 @@ void update_surface(SQLite::Database& database, Sequence shape, const Surface& s
 void update_prepared(SQLite::Database& database, Sequence shape, const PreprocessedShape& prepared) {
   SQLite::Statement update(database,
                            "UPDATE shapes SET state = 'ready', engine = ?, sphere_flipped = ?, solid_angle_defect = ?, "
-                           "area_distortion = ?, error_code = '', error_detail = '', attempts = 0 WHERE sequence = ?");
+                           "area_distortion = ?, error_code = '', error_detail = '', attempts = 0, "
+                           "finished_at = strftime('%Y-%m-%dT%H:%M:%fZ', 'now') WHERE sequence = ?");
   update.bind(1, prepared.engine);
   update.bind(2, prepared.sphere_quality.flipped);
   update.bind(3, prepared.sphere_quality.solid_angle_defect);
@@ -150,7 +151,8 @@ void update_prepared(SQLite::Database& database, Sequence shape, const Preproces
 void clear_prepared(SQLite::Database& database, Sequence shape) {
   SQLite::Statement update(database,
                            "UPDATE shapes SET state = 'queued', engine = '', sphere_flipped = NULL, solid_angle_defect = NULL, "
-                           "area_distortion = NULL, error_code = '', error_detail = '', attempts = 0 WHERE sequence = ?");
+                           "area_distortion = NULL, error_code = '', error_detail = '', attempts = 0, started_at = NULL, "
+                           "finished_at = NULL WHERE sequence = ?");
   update.bind(1, shape);
   update.exec();
   forget_seconds(database, shape);

@@ -3,68 +3,20 @@
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Exception.h>
 #include <SQLiteCpp/Statement.h>
-#include <SQLiteCpp/Transaction.h>
 #include <sqlite3.h>
 
 #include <algorithm>
 #include <charconv>
 #include <functional>
 #include <limits>
-#include <mutex>
-#include <new>
 
 #include "storage/blob_codec.h"
 #include "storage/connection_pool.h"
 #include "storage/shape_rows.h"
+#include "storage/transaction.h"
 
 namespace spherematch {
 namespace {
-
-[[noreturn]] void rethrow(const SQLite::Exception& error) {
-  switch (error.getErrorCode()) {
-    case SQLITE_NOMEM:
-      throw std::bad_alloc();
-    case SQLITE_BUSY:
-    case SQLITE_LOCKED:
-      throw StorageError(StorageErrorCode::busy, "the store is locked by another process");
-    case SQLITE_FULL:
-      throw StorageError(StorageErrorCode::full, "there is no space left for the store");
-    case SQLITE_TOOBIG:
-      throw StorageError(StorageErrorCode::too_large, "too large for the store");
-    case SQLITE_NOTADB:
-      throw StorageError(StorageErrorCode::not_a_store, "the store's file is not a database");
-    default:
-      throw StorageError(StorageErrorCode::io, std::string("the store cannot be used: ") + error.what());
-  }
-}
-
-/// Runs use(database) in a transaction whose reads agree with each other.
-template <typename Use>
-auto read(ConnectionPool& pool, Use use) {
-  try {
-    const ConnectionPool::Lease lease = pool.lease();
-    const SQLite::Transaction transaction(*lease);
-    return use(*lease);
-  } catch (const SQLite::Exception& error) {
-    rethrow(error);
-  }
-}
-
-/// Runs use(database) in a transaction and commits it. The write lock is taken at the start, so that a decision made on what
-/// was read stays right, and waiting for it never fails half-way.
-template <typename Use>
-auto write(ConnectionPool& pool, Use use) {
-  try {
-    const std::lock_guard lock(pool.write_mutex());
-    const ConnectionPool::Lease lease = pool.lease();
-    SQLite::Transaction transaction(*lease, SQLite::TransactionBehavior::IMMEDIATE);
-    auto result = use(*lease);
-    transaction.commit();
-    return result;
-  } catch (const SQLite::Exception& error) {
-    rethrow(error);
-  }
-}
 
 ShapeRow existing_row(SQLite::Database& database, std::string_view id) {
   auto row = find_row(database, id);
@@ -127,18 +79,7 @@ std::string_view to_string(ShapeState state) {
   return "failed";
 }
 
-ShapeStore::ShapeStore(const std::filesystem::path& file, std::chrono::milliseconds busy_timeout) {
-  try {
-    pool_ = std::make_unique<ConnectionPool>(file, busy_timeout);
-  } catch (const SQLite::Exception& error) {
-    if (error.getErrorCode() == SQLITE_NOTADB) {
-      throw StorageError(StorageErrorCode::not_a_store, "\"" + file.string() + "\" is not a database");
-    }
-    rethrow(error);
-  } catch (const std::filesystem::filesystem_error& error) {
-    throw StorageError(StorageErrorCode::io, std::string("the store's directory cannot be made: ") + error.what());
-  }
-}
+ShapeStore::ShapeStore(const std::filesystem::path& file, std::chrono::milliseconds busy_timeout) : pool_(open_store(file, busy_timeout)) {}
 
 ShapeStore::~ShapeStore() = default;
 
@@ -192,7 +133,10 @@ bool ShapeStore::remove(std::string_view id) {
 
 bool ShapeStore::mark_processing(std::string_view id) {
   return write(*pool_, [&](SQLite::Database& database) {
-    SQLite::Statement statement(database, "UPDATE shapes SET state = 'processing' WHERE id = ? AND state = 'queued'");
+    SQLite::Statement statement(
+        database,
+        "UPDATE shapes SET state = 'processing', finished_at = NULL, started_at = strftime('%Y-%m-%dT%H:%M:%fZ', 'now') "
+        "WHERE id = ? AND state = 'queued'");
     statement.bind(1, std::string(id));
     return statement.exec() > 0;
   });
@@ -201,7 +145,8 @@ bool ShapeStore::mark_processing(std::string_view id) {
 bool ShapeStore::mark_failed(std::string_view id, std::string_view code, std::string_view detail) {
   return write(*pool_, [&](SQLite::Database& database) {
     SQLite::Statement statement(database,
-                                "UPDATE shapes SET state = 'failed', error_code = ?, error_detail = ? "
+                                "UPDATE shapes SET state = 'failed', error_code = ?, error_detail = ?, "
+                                "finished_at = strftime('%Y-%m-%dT%H:%M:%fZ', 'now') "
                                 "WHERE id = ? AND state IN ('queued', 'processing')");
     statement.bind(1, std::string(code));
     statement.bind(2, std::string(detail));

@@ -113,8 +113,11 @@ class ShapeStore {
   /// Bit for bit what save_prepared() got. @throws StorageError(not_found) also when the shape is not ready
   [[nodiscard]] std::shared_ptr<const PreprocessedShape> load_prepared(std::string_view id) const;
 
+  /// For the other stores on the same file.
+  [[nodiscard]] const std::shared_ptr<ConnectionPool>& pool() const { return pool_; }
+
  private:
-  std::unique_ptr<ConnectionPool> pool_;
+  std::shared_ptr<ConnectionPool> pool_;
 };
 
 }  // namespace spherematch

@@ -21,7 +21,7 @@ struct Correspondence {
 };
 
 struct CandidateSummary {
-  std::array<double, 9> rotation{};  ///< row-major, turns the source sphere onto the target sphere
+  std::array<double, 9> rotation{};  ///< row-major, takes the source sphere onto the target sphere; of determinant -1 where mirrored
   double correlation = 0;            ///< of the rotation signals, 1 for equal signals
   double score = 0;                  ///< selection cost after the flow; the lowest is chosen
   bool chosen = false;
@@ -32,6 +32,8 @@ using MatchQuality = std::vector<std::pair<std::string, double>>;
 
 struct MatchResult {
   Correspondence map;
+  Correspondence reverse;  ///< from target to source, of the same registration; empty unless asked for (MatchParameters::both)
+  bool reversed = false;   ///< the source's mirror image was matched
   std::vector<CandidateSummary> candidates;  ///< in order of falling correlation
   MatchQuality quality;
   StageSeconds seconds;  ///< "rotation", "flow", "selection", "correspondence", "total"

@@ -55,6 +55,8 @@ void MatchParameters::validate() const {
   require(flow_iterations >= 0 && flow_iterations <= 100, "flow_iterations", "must be 0 to 100");
   require(fine_candidates >= 1, "fine_candidates", "must be at least 1");
   require(positive(flow_smoothness), "flow_smoothness", "must be positive");
+  require(hints.size() <= max_hints, "hints", "must hold at most 64 pairs");
+  for (const Hint& hint : hints) require(hint.source >= 0 && hint.target >= 0, "hints", "must be vertex numbers from 0");
 }
 
 MatchParameters MatchParameters::paper() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -40,7 +41,19 @@ struct PreprocessParameters {
   static PreprocessParameters paper();
 };
 
+/// Which way round the source is matched: as it is, as its mirror image (left bone to right bone), or as what scores better.
+enum class Orientation { preserve, reverse, any };
+
+/// Uploaded vertex `source` of the source belongs to uploaded vertex `target` of the target; roughly is enough.
+struct Hint {
+  std::int32_t source = 0;
+  std::int32_t target = 0;
+  bool operator==(const Hint&) const = default;
+};
+
 struct MatchParameters {
+  static constexpr std::size_t max_hints = 64;
+
   // Rotational alignment (engine/register/rotation.h)
   double rotation_time = 1.0;  ///< heat kernel signature time of the rotation signal
   int rotation_bandwidth = 32;
@@ -57,6 +70,11 @@ struct MatchParameters {
   // Candidate selection (engine/register/selection.h)
   int fine_candidates = 2;       ///< only this many best ones go on after the coarser half of the levels
   bool paper_selection = false;  ///< by the one signal at time 0.01, as the paper does
+
+  // What the caller wants and knows
+  Orientation orientation = Orientation::preserve;
+  std::vector<Hint> hints;  ///< at most max_hints; they pick and guide the candidate
+  bool both = false;        ///< also the map from target to source
 
   /// @throws EngineError(invalid_parameter) naming the field and the reason
   void validate() const;

@@ -39,6 +39,8 @@ std::optional<MapFormat> map_format_of(std::string_view name) {
 
 bool needs_source_mesh(MapFormat format) { return format == MapFormat::ply || format == MapFormat::glb || format == MapFormat::obj; }
 
+bool needs_surfaces(MapFormat format) { return needs_source_mesh(format) || format == MapFormat::png; }
+
 std::string encode_map(MapFormat format, const Correspondence& map, const Surface& source, const Surface& target, PolygonMesh source_mesh) {
   switch (format) {
     case MapFormat::npz:

@@ -23,8 +23,11 @@ enum class MapFormat { npz, npy, text, ply, glb, obj, png };
 /// Whether encode_map() needs the source as it was uploaded.
 [[nodiscard]] bool needs_source_mesh(MapFormat format);
 
-/// The file's bytes; they depend on the arguments alone. `source_mesh` is the uploaded mesh that `source` was made of, and may be empty
-/// where it is not needed. Thread-safe.
+/// Whether encode_map() needs the two surfaces.
+[[nodiscard]] bool needs_surfaces(MapFormat format);
+
+/// The file's bytes; they depend on the arguments alone. `source_mesh` is the uploaded mesh that `source` was made of. What is not
+/// needed may be empty. Thread-safe.
 /// @throws std::invalid_argument when the source and the map differ in their number of vertices, or the map goes to vertices that the
 /// target does not have
 [[nodiscard]] std::string encode_map(MapFormat format, const Correspondence& map, const Surface& source, const Surface& target,

@@ -8,6 +8,8 @@
 #include <memory>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace spherematch {
 
@@ -70,6 +72,31 @@ std::string contents(zip_source_t* source) {
   return bytes;
 }
 
+/// A file's name in the archive and its bytes.
+using NamedArray = std::pair<std::string, std::string>;
+
+void add_map(std::vector<NamedArray>& arrays, const std::string& prefix, const Correspondence& map) {
+  const auto bytes_of = [](const auto& matrix) { return static_cast<std::size_t>(matrix.size()) * sizeof(matrix.data()[0]); };
+  arrays.emplace_back(prefix + "vertex.npy", encode_npy(map));
+  arrays.emplace_back(prefix + "corners.npy", encode_array("<i4", map.corners.rows(), 3, map.corners.data(), bytes_of(map.corners)));
+  arrays.emplace_back(prefix + "bary.npy", encode_array("<f4", map.bary.rows(), 3, map.bary.data(), bytes_of(map.bary)));
+}
+
+std::string zip(const std::vector<NamedArray>& files) {
+  const Source file(zip_source_buffer_create(nullptr, 0, 0, nullptr));
+  if (!file) fail("buffer");
+  zip_source_keep(file.get());  // The archive takes one reference; the other reads the bytes afterwards.
+  Archive archive(zip_open_from_source(file.get(), ZIP_TRUNCATE, nullptr));
+  if (!archive) {
+    zip_source_free(file.get());
+    fail("create");
+  }
+  for (const auto& [name, bytes] : files) add_stored(archive.get(), name.c_str(), bytes);
+  if (zip_close(archive.get()) != 0) fail("close");
+  [[maybe_unused]] const zip_t* closed = archive.release();
+  return contents(file.get());
+}
+
 }  // namespace
 
 std::string encode_npy(const Correspondence& map) {
@@ -94,26 +121,16 @@ std::string encode_text(const Correspondence& map) {
 }
 
 std::string encode_npz(const Correspondence& map) {
-  const std::string vertex = encode_npy(map);
-  const std::string corners =
-      encode_array("<i4", map.corners.rows(), 3, map.corners.data(), static_cast<std::size_t>(map.corners.size()) * sizeof(std::int32_t));
-  const std::string bary =
-      encode_array("<f4", map.bary.rows(), 3, map.bary.data(), static_cast<std::size_t>(map.bary.size()) * sizeof(float));
+  std::vector<NamedArray> arrays;
+  add_map(arrays, "", map);
+  return zip(arrays);
+}
 
-  const Source file(zip_source_buffer_create(nullptr, 0, 0, nullptr));
-  if (!file) fail("buffer");
-  zip_source_keep(file.get());  // The archive takes one reference; the other reads the bytes afterwards.
-  Archive archive(zip_open_from_source(file.get(), ZIP_TRUNCATE, nullptr));
-  if (!archive) {
-    zip_source_free(file.get());
-    fail("create");
-  }
-  add_stored(archive.get(), "vertex.npy", vertex);
-  add_stored(archive.get(), "corners.npy", corners);
-  add_stored(archive.get(), "bary.npy", bary);
-  if (zip_close(archive.get()) != 0) fail("close");
-  [[maybe_unused]] const zip_t* closed = archive.release();
-  return contents(file.get());
+std::string encode_npz(const Correspondence& map, const Correspondence& reverse) {
+  std::vector<NamedArray> arrays;
+  add_map(arrays, "", map);
+  add_map(arrays, "reverse_", reverse);
+  return zip(arrays);
 }
 
 }  // namespace spherematch

@@ -11,6 +11,9 @@ namespace spherematch {
 /// A zip of `vertex.npy` int32 (n,), `corners.npy` int32 (n, 3) and `bary.npy` float32 (n, 3), stored uncompressed.
 [[nodiscard]] std::string encode_npz(const Correspondence& map);
 
+/// The same, and the arrays of the map in the other direction under `reverse_vertex.npy` and so on.
+[[nodiscard]] std::string encode_npz(const Correspondence& map, const Correspondence& reverse);
+
 /// `vertex` as NPY, int32 (n,).
 [[nodiscard]] std::string encode_npy(const Correspondence& map);
 

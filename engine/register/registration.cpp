@@ -83,6 +83,7 @@ FlowParameters flow_levels(const MatchParameters& parameters, std::size_t first,
 struct Registration {
   FlowShape source, target;
   std::vector<Location> locations;  ///< of the source's vertices in the target
+  std::vector<Location> back;       ///< of the target's vertices in the source
   double score = 0;
 };
 
@@ -91,6 +92,7 @@ Registration rotated(const Side& source, const Side& target, const Eigen::Matrix
   const Eigen::Matrix3d half = half_rotation(rotation);
   return {{&source.faces(), &source.flow_signals, &source.repair, source.shape.sphere * half.transpose()},
           {&target.faces(), &target.flow_signals, &target.repair, target.shape.sphere * half},
+          {},
           {},
           0};
 }
@@ -102,10 +104,10 @@ void judge(Registration& registration, const Side& source, const Side& target, c
     registration.score = paper_cost(s, source.faces(), source.selection, t, target.faces(), target.selection, 128);
     return;
   }
-  const std::vector<Location> back = locate_all(t, PointLocation(s, source.faces()));
+  registration.back = locate_all(t, PointLocation(s, source.faces()));
   registration.score =
       0.5 * (registration_cost(source.selection, source.weights, target.selection, target.faces(), registration.locations) +
-             registration_cost(target.selection, target.weights, source.selection, source.faces(), back));
+             registration_cost(target.selection, target.weights, source.selection, source.faces(), registration.back));
 }
 
 /// Flows the candidates: all of them through the coarse levels, the most promising ones to the end. Returns the index of the best.
@@ -177,7 +179,12 @@ MatchResult register_pair(const PreprocessedShape& source_shape, const Preproces
     summary.chosen = i == chosen;
     result.candidates.push_back(summary);
   }
-  result.map = compose(source_shape.surface, target_shape.surface, registrations[chosen].locations);
+  Registration& best = registrations[chosen];
+  result.map = compose(source_shape.surface, target_shape.surface, best.locations);
+  if (parameters.both) {
+    if (best.back.empty()) best.back = locate_all(best.target.sphere, PointLocation(best.source.sphere, source.faces()));
+    result.reverse = compose(target_shape.surface, source_shape.surface, best.back);
+  }
   result.quality = measure_map(source, target, registrations, chosen);
   result.seconds.emplace_back("correspondence", watch.lap());
   result.seconds.emplace_back("total", total.lap());

@@ -54,7 +54,7 @@ class MatchTest(support.TestCase):
             distance = {c: math.dist(image, TGT[0][c]) for c in corners}
             self.assertLessEqual(distance[vertex], min(distance.values()) + 1e-6)
         self.assertEqual([c['chosen'] for c in result['candidates']].count(True), 1)
-        self.assertIs(result['cached'], False)
+        self.assertIs(self.match(cache='no').json()['cached'], False)
         self.assertGreater(result['seconds']['total'], 0)
         for stage in ('rotation', 'flow', 'correspondence'):
             self.assertIn(stage, result['seconds'])

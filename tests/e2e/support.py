@@ -147,6 +147,16 @@ class Server:
         finally:
             connection.close()
 
+    @contextlib.contextmanager
+    def stream(self, path, timeout=120):
+        """The response, to be read as it comes."""
+        connection = http.client.HTTPConnection('127.0.0.1', self.port, timeout=timeout)
+        try:
+            connection.request('GET', path)
+            yield connection.getresponse()
+        finally:
+            connection.close()
+
     def get(self, path, headers=None, **query):
         return self.request('GET', path, headers=headers, query=query)
 

@@ -340,6 +340,9 @@ TEST(MatchParameters, NameTheInvalidField) {
   expect_invalid(with([&](auto& p) { p.flow_times.assign(6, 0.5); }), "flow_times");
   for (const int resolution : {6, 9, 34}) expect_invalid(with([&](auto& p) { p.flow_resolution = resolution; }), "flow_resolution");
   for (const int iterations : {-1, 101}) expect_invalid(with([&](auto& p) { p.flow_iterations = iterations; }), "flow_iterations");
+  expect_invalid(with([&](auto& p) { p.hints.assign(65, {1, 1}); }), "hints");
+  expect_invalid(with([&](auto& p) { p.hints = {{0, 0}, {-1, 0}}; }), "hints");
+  expect_invalid(with([&](auto& p) { p.hints = {{0, -1}}; }), "hints");
   const PreprocessedShape nothing;
   test::expect_refusal(ErrorCode::invalid_parameter, [&] { (void)match(nothing, nothing, with([](auto& p) { p.max_candidates = 0; })); });
 }

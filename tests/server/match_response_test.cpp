@@ -27,10 +27,23 @@ TEST(MatchResponse, OnlyTheSelectedArraysAreTaken) {
   result.quality = {{"coverage", 1}};
   result.seconds = {{"total", 2}};
 
-  const api::Match few = match_of(result, parse_fields(""));
+  MatchQuery query{"s", "t", {}};
+  const auto match = [&](const char* fields, MatchSource source = MatchSource::computed) {
+    return match_of(query, {std::make_shared<const MatchResult>(result), source}, parse_fields(fields), 3, "7");
+  };
+  const api::Match few = match("");
+  EXPECT_EQ(few.src, "s");
+  EXPECT_EQ(few.tgt, "t");
   EXPECT_EQ(few.n_src, 2);
+  EXPECT_EQ(few.n_tgt, 3);
+  EXPECT_EQ(few.engine, "7");
+  EXPECT_EQ(few.orientation, "preserve");
+  EXPECT_FALSE(few.cached || few.reverse);
+  EXPECT_TRUE(match("", MatchSource::store).cached);
+  EXPECT_TRUE(match("", MatchSource::memory).cached);
+  EXPECT_FALSE(match("", MatchSource::joined).cached);
   EXPECT_FALSE(few.vertex || few.corners || few.bary);
-  const api::Match all = match_of(result, parse_fields("vertex,corners,bary"));
+  const api::Match all = match("vertex,corners,bary");
   EXPECT_EQ(*all.vertex, (std::vector<std::int32_t>{2, -1}));
   EXPECT_EQ(*all.corners, (std::vector<std::array<std::int32_t, 3>>{{2, 1, 0}, {-1, -1, -1}}));
   EXPECT_EQ(*all.bary, (std::vector<std::array<float, 3>>{{0.5F, 0.25F, 0.25F}, {0, 0, 0}}));
@@ -39,11 +52,16 @@ TEST(MatchResponse, OnlyTheSelectedArraysAreTaken) {
   EXPECT_TRUE(all.candidates[0].chosen);
   EXPECT_EQ(all.quality, result.quality);
   EXPECT_EQ(all.seconds, result.seconds);
-}
 
-TEST(MatchResponse, ServerTimingIsInMilliseconds) {
-  EXPECT_EQ(server_timing({{"rotation", 0.25}, {"total", 1.5}}), "rotation;dur=250.0, total;dur=1500.0");
-  EXPECT_EQ(server_timing({}), "");
+  query.parameters.both = true;
+  result.reverse.vertex = {0, 1, 1};
+  result.reversed = true;
+  const api::Match both = match("vertex");
+  EXPECT_EQ(both.orientation, "reverse");
+  EXPECT_EQ(both.reverse->n_src, 3);
+  EXPECT_EQ(both.reverse->n_tgt, 2);
+  EXPECT_EQ(*both.reverse->vertex, (std::vector<std::int32_t>{0, 1, 1}));
+  EXPECT_FALSE(both.reverse->corners);
 }
 
 }  // namespace

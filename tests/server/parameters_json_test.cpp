@@ -22,7 +22,28 @@ TEST(ParametersJson, EveryFieldOfAMatchShows) {
   EXPECT_TRUE(changed(&MatchParameters::flow_resolution, 8));
   EXPECT_TRUE(changed(&MatchParameters::flow_iterations, 1));
   EXPECT_TRUE(changed(&MatchParameters::flow_smoothness, 0.1));
+  EXPECT_TRUE(changed(&MatchParameters::fine_candidates, 3));
   EXPECT_TRUE(changed(&MatchParameters::paper_selection, true));
+  EXPECT_TRUE(changed(&MatchParameters::orientation, Orientation::reverse));
+  EXPECT_TRUE(changed(&MatchParameters::hints, std::vector<Hint>{{1, 2}}));
+  EXPECT_TRUE(changed(&MatchParameters::both, true));
+}
+
+TEST(ParametersJson, WhatTheCallerKnowsIsTold) {
+  MatchParameters parameters;
+  api::Json json = to_json(parameters);
+  EXPECT_EQ(json["orientation"], "preserve");
+  EXPECT_EQ(json["hints"].dump(), "[]");
+  EXPECT_EQ(json["both"], false);
+  parameters.hints = {{12, 40}, {77, 3}};
+  parameters.both = true;
+  for (const auto& [orientation, name] : {std::pair{Orientation::reverse, "reverse"}, std::pair{Orientation::any, "any"}}) {
+    parameters.orientation = orientation;
+    json = to_json(parameters);
+    EXPECT_EQ(json["orientation"], name);
+    EXPECT_EQ(json["hints"].dump(), "[[12,40],[77,3]]");
+    EXPECT_EQ(json["both"], true);
+  }
 }
 
 TEST(ParametersJson, PreprocessingShowsItsValues) {

@@ -14,7 +14,7 @@ class RouterTest : public ::testing::Test {
   RouterTest() {
     const auto named = [](const std::string& name) {
       return [name](HttpRequest& request) {
-        return HttpResponse{200, "text/plain", name + ":" + request.id + ":" + request.upload.bytes, {}};
+        return HttpResponse{200, "text/plain", name + ":" + request.id + ":" + request.body.bytes, {}};
       };
     };
     router.add("GET", "/", named("root"));
@@ -31,9 +31,9 @@ class RouterTest : public ::testing::Test {
     request.method = method;
     request.path = path;
     request.request_id = "r1";
-    return router.handle(request, [this](HttpRequest& r) {
+    return router.handle(request, [this](HttpRequest& r, Body) {
       ++bodies_read;
-      r.upload.bytes = "body";
+      r.body.bytes = "body";
     });
   }
 
@@ -60,7 +60,9 @@ TEST_F(RouterTest, ReadsABodyOnlyForRoutesThatTakeOne) {
 }
 
 TEST_F(RouterTest, UnknownPathsAreNotFound) {
-  for (const char* path : {"", "/x", "/things/", "/things//part", "/things/x/", "/things/x/part/", "/things/x/y", "//", "/part"}) {
+  const std::string long_id = "/things/" + std::string(129, 'a');
+  for (const char* path :
+       {"", "/x", "/things/", "/things//part", "/things/x/", "/things/x/part/", "/things/x/y", "//", "/part", long_id.c_str()}) {
     const HttpResponse response = call("GET", path);
     EXPECT_EQ(response.status, 404) << path;
     EXPECT_EQ(api::from_text<api::Problem>(response.body).code, api::Code::not_found);
@@ -87,7 +89,13 @@ TEST_F(RouterTest, WhatAHandlerThrowsBecomesAProblem) {
 TEST_F(RouterTest, PatternsForLogs) {
   EXPECT_EQ(router.pattern_of("/things/secret/part"), "/things/{id}/part");
   EXPECT_EQ(router.pattern_of("/nowhere"), "-");
-  EXPECT_EQ(router.upload_patterns(), std::vector<std::string>{"/things"});
+}
+
+TEST_F(RouterTest, BodiesOfRoutes) {
+  EXPECT_EQ(router.body_of("POST", "/things"), Body::upload);
+  EXPECT_EQ(router.body_of("GET", "/things"), Body::none);
+  EXPECT_EQ(router.body_of("POST", "/things/x"), Body::none);
+  EXPECT_EQ(router.body_of("POST", "/nowhere"), Body::none);
 }
 
 }  // namespace

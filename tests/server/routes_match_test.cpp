@@ -21,7 +21,7 @@ TEST_F(RoutesMatch, JsonCarriesTheSelectedFields) {
   const HttpResponse plain = match();
   EXPECT_EQ(plain.status, 200);
   EXPECT_EQ(plain.content_type, "application/json");
-  EXPECT_EQ(header(plain, "Server-Timing"), "rotation;dur=125.0, total;dur=125.0");
+  EXPECT_EQ(header(plain, "Server-Timing"), "cache;desc=computed, rotation;dur=125.0, total;dur=125.0");
   const auto result = api::from_text<api::Match>(plain.body);
   EXPECT_EQ(result.src, src);
   EXPECT_EQ(result.tgt, tgt);
@@ -35,9 +35,28 @@ TEST_F(RoutesMatch, JsonCarriesTheSelectedFields) {
   const auto whole = api::from_text<api::Match>(match({{"fields", "vertex,corners,bary"}}).body);
   EXPECT_EQ(whole.corners->at(0), (std::array<std::int32_t, 3>{1, 0, 1}));
   EXPECT_EQ(whole.bary->at(3), (std::array<float, 3>{0.5F, 0.3F, 0.2F}));
+  EXPECT_TRUE(whole.cached);
+  EXPECT_EQ(engine.matches, 1);
+}
+
+TEST_F(RoutesMatch, BothDirectionsOfOneRegistration) {
+  const auto both = api::from_text<api::Match>(match({{"both", "yes"}, {"fields", "vertex"}}).body);
+  ASSERT_TRUE(both.reverse);
+  EXPECT_EQ(both.reverse->n_src, 5);
+  EXPECT_EQ(both.reverse->vertex->size(), 5U);
+  const std::string npz = match({{"both", "yes"}, {"format", "npz"}}).body;
+  for (const char* name : {"vertex.npy", "reverse_vertex.npy", "reverse_corners.npy", "reverse_bary.npy"}) {
+    EXPECT_NE(npz.find(name), std::string::npos) << name;
+  }
+  EXPECT_EQ(engine.matches, 1);
+  EXPECT_EQ(match({{"format", "npz"}}).body.find("reverse_"), std::string::npos);
+  for (const char* format : {"npy", "txt", "ply", "png"})
+    EXPECT_EQ(problem_code(match({{"both", "yes"}, {"format", format}})), api::Code::invalid_parameter);
+  EXPECT_NE(header(match({{"both", "yes"}}), "ETag"), header(match(), "ETag"));
 }
 
 TEST_F(RoutesMatch, EveryRepresentationByParameterAndByHeader) {
+  (void)match();  // so that "cached" is true in what follows
   for (const auto& [format, type] : {std::pair{"json", "application/json"},
                                      {"npz", "application/x-npz"},
                                      {"npy", "application/x-npy"},
@@ -83,7 +102,8 @@ TEST_F(RoutesMatch, AShapeRemovedDuringTheMatchDoesNotSpoilItsMesh) {
 
 TEST_F(RoutesMatch, ParametersAreChecked) {
   EXPECT_EQ(problem_code(match({{"bogus", "1"}})), api::Code::invalid_parameter);
-  EXPECT_NE(match({{"bogus", "1"}}).body.find("src, tgt, format, fields, wait, cache, method"), std::string::npos);
+  EXPECT_NE(match({{"bogus", "1"}}).body.find("src, tgt, format, fields, wait, cache, method, orientation, hints, both"),
+            std::string::npos);
   EXPECT_EQ(problem_code(match({{"format", "exe"}})), api::Code::invalid_parameter);
   EXPECT_EQ(problem_code(match({{"fields", "faces"}})), api::Code::invalid_parameter);
   EXPECT_NE(match({{"format", "exe"}}).body.find("json, npz, npy, txt, ply, glb, obj, png"), std::string::npos);
@@ -166,9 +186,9 @@ TEST_F(RoutesMatch, TooManyAtOnceAreTurnedAway) {
   engine.hold_matches = true;  // one slot, one place to wait
   std::jthread first([this] { EXPECT_EQ(match().status, 200); });
   while (matches->counts().inside < 1) std::this_thread::yield();
-  std::jthread second([this] { EXPECT_EQ(match().status, 200); });
+  std::jthread second([this] { EXPECT_EQ(get("/match", {{"src", tgt}, {"tgt", src}}).status, 200); });
   while (matches->counts().waiting < 1) std::this_thread::yield();
-  const HttpResponse third = match();
+  const HttpResponse third = get("/match", {{"src", src}, {"tgt", src}});
   EXPECT_EQ(problem_code(third), api::Code::overloaded);
   EXPECT_EQ(header(third, "Retry-After"), "2");
   const auto health = api::from_text<api::Health>(get("/healthz").body);

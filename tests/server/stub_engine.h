@@ -99,6 +99,7 @@ class StubEngine final : public EnginePort {
       result.map.corners.row(i) << result.map.vertex.back(), 0, 1;
       result.map.bary.row(i) << 0.5F, 0.3F, 0.2F;
     }
+    if (parameters.both) result.reverse = result.map;  // the two shapes are of one size
     result.candidates = {{{1, 0, 0, 0, 1, 0, 0, 0, 1}, 0.9, parameters.paper_selection ? 1.0 : 0.0, true}};
     result.quality = {{"coverage", 1}};
     result.seconds = {{"rotation", 0.125}, {"total", 0.125}};

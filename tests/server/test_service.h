@@ -6,6 +6,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <mutex>
+#include <set>
+#include <sstream>
 #include <string>
 #include <system_error>
 
@@ -36,17 +39,30 @@ class TestService : public ::testing::Test {
     store = std::make_unique<ShapeStore>(directory / "store.db");
     shapes = std::make_unique<ShapeService>(*store, engine, settings);
     matches = std::make_unique<Gate>("matches", 1, 1);
-    context = std::make_unique<ServerContext>(ServerContext{options, "1.2.3", engine, *shapes, *matches, stop_source.get_token()});
+    match_store = std::make_unique<MatchStore>(*store, match_store_bytes);
+    match_service = std::make_unique<MatchService>(*shapes, *match_store, engine, *matches, stop_source.get_token(), match_settings);
+    jobs = std::make_unique<JobStore>(*store);
+    match_jobs = std::make_unique<MatchJobs>(*jobs, *shapes, *match_service, job_settings);
+    context = std::make_unique<ServerContext>(
+        ServerContext{options, "1.2.3", engine, *shapes, *matches, *match_service, *match_jobs, *jobs, stop_source.get_token()});
     router = std::make_unique<Router>();
     add_shape_routes(*router, *context);
     add_match_routes(*router, *context);
+    add_match_post_routes(*router, *context);
+    add_job_routes(*router, *context);
     add_system_routes(*router, *context);
   }
   void stop() {
     stop_source.request_stop();
+    if (matches) matches->close();
+    if (match_jobs) match_jobs->stop();
     if (shapes) shapes->stop();
     router.reset();
     context.reset();
+    match_jobs.reset();
+    jobs.reset();
+    match_service.reset();
+    match_store.reset();
     matches.reset();
     shapes.reset();
     store.reset();
@@ -67,9 +83,9 @@ class TestService : public ::testing::Test {
     request.query = call.query;
     request.headers = call.headers;
     request.request_id = "test";
-    return router->handle(request, [&](HttpRequest& r) {
-      r.upload.bytes = call.body;
-      r.upload.file_name = call.file_name;
+    return router->handle(request, [&](HttpRequest& r, Body) {
+      r.body.bytes = call.body;
+      r.body.file_name = call.file_name;
     });
   }
   HttpResponse get(const std::string& path, const std::multimap<std::string, std::string>& query = {}) {
@@ -77,6 +93,9 @@ class TestService : public ::testing::Test {
   }
   HttpResponse post(const std::string& body, std::multimap<std::string, std::string> query = {{"wait", "10"}}) {
     return call({.method = "POST", .path = "/shapes", .query = std::move(query), .body = body, .file_name = {}, .headers = {}});
+  }
+  HttpResponse post_json(const std::string& path, const std::string& body) {
+    return call({.method = "POST", .path = path, .query = {}, .body = body, .file_name = {}, .headers = {}});
   }
   HttpResponse remove(const std::string& id) {
     return call({.method = "DELETE", .path = "/shapes/" + id, .query = {}, .body = {}, .file_name = {}, .headers = {}});
@@ -111,6 +130,13 @@ class TestService : public ::testing::Test {
   std::unique_ptr<ShapeStore> store;
   std::unique_ptr<ShapeService> shapes;
   std::unique_ptr<Gate> matches;
+  std::size_t match_store_bytes = std::size_t{1} << 20;
+  MatchServiceSettings match_settings;
+  MatchJobsSettings job_settings{.workers = 1, .retry_after = std::chrono::milliseconds(20)};
+  std::unique_ptr<MatchStore> match_store;
+  std::unique_ptr<MatchService> match_service;
+  std::unique_ptr<JobStore> jobs;
+  std::unique_ptr<MatchJobs> match_jobs;
   std::unique_ptr<ServerContext> context;
   std::unique_ptr<Router> router;
 };

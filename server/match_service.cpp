@@ -1,0 +1,165 @@
+#include "server/match_service.h"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <exception>
+#include <optional>
+#include <span>
+
+#include "server/memory_size.h"
+#include "server/parameters_json.h"
+#include "server/problem.h"
+#include "storage/content_id.h"
+
+namespace spherematch {
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+struct MatchService::Flight {
+  MatchPointer result;       ///< once landed, or
+  std::exception_ptr error;  ///< once failed
+  bool landed = false;
+};
+
+std::string_view to_string(MatchSource source) {
+  switch (source) {
+    case MatchSource::computed:
+      return "computed";
+    case MatchSource::memory:
+      return "memory";
+    case MatchSource::store:
+      return "store";
+    case MatchSource::joined:
+      break;
+  }
+  return "joined";
+}
+
+MatchService::MatchService(ShapeService& shapes, MatchStore& store, const EnginePort& engine, Gate& gate, std::stop_token stop,
+                           const MatchServiceSettings& settings)
+    : shapes_(shapes),
+      store_(store),
+      engine_(engine),
+      gate_(gate),
+      stop_(std::move(stop)),
+      settings_(settings),
+      memory_(settings.memory_bytes) {}
+
+std::string MatchService::key_of(const MatchQuery& query) const {
+  const std::string text = query.src + query.tgt + to_json(query.parameters).dump();
+  // The shapes in front, so that forget() finds them.
+  return query.src + "." + query.tgt + "." + content_id(std::as_bytes(std::span(text)), engine_.version()).id;
+}
+
+void MatchService::forget(const std::string& shape) {
+  memory_.erase_if([&shape](std::string_view key) { return key.find(shape) != std::string_view::npos; });
+}
+
+MatchAnswer MatchService::get(const MatchQuery& query, Cache cache, Urgency urgency) {
+  const auto started = std::chrono::steady_clock::now();
+  MatchAnswer found = answer(query, cache, urgency);
+  const double seconds = seconds_since(started);
+  // Only now, when the result is kept: a server that ends before computes it again, and after not.
+  if (found.source == MatchSource::computed)
+    spdlog::info("event=match_computed src={} tgt={} seconds={:.3f}", query.src, query.tgt, seconds);
+  if (settings_.observe) settings_.observe(found.source, seconds);
+  return found;
+}
+
+MatchAnswer MatchService::answer(const MatchQuery& query, Cache cache, Urgency urgency) {
+  if (cache == Cache::bypass) {
+    const Gate::Permit permit = urgency == Urgency::interactive ? gate_.enter() : gate_.enter_behind();
+    return {compute(query), MatchSource::computed};
+  }
+  const std::string key = key_of(query);
+  if (MatchAnswer found = find(key); found.result) return found;
+  return compute_or_join(key, query, urgency);
+}
+
+MatchAnswer MatchService::find(const std::string& key) {
+  if (MatchPointer result = memory_.find(key)) return {std::move(result), MatchSource::memory};
+  MatchPointer result = store_.find(key);
+  if (result) memory_.put(key, result, memory_size(*result));
+  return {std::move(result), MatchSource::store};
+}
+
+MatchAnswer MatchService::compute_or_join(const std::string& key, const MatchQuery& query, Urgency urgency) {
+  // Who has time waits for its turn before it takes the lead, so that nobody in a hurry waits behind it.
+  std::optional<Gate::Permit> permit;
+  if (urgency == Urgency::background) permit.emplace(gate_.enter_behind());
+  bool mine = false;
+  const FlightPointer flight = board(key, mine);
+  if (mine) return lead(flight, key, query, permit ? &*permit : nullptr);
+  permit.reset();
+  return join(flight);
+}
+
+MatchService::FlightPointer MatchService::board(const std::string& key, bool& mine) {
+  const std::lock_guard lock(mutex_);
+  auto& flight = flights_[key];
+  mine = flight == nullptr;
+  if (mine) flight = std::make_shared<Flight>();
+  return flight;
+}
+
+MatchAnswer MatchService::join(const FlightPointer& flight) {
+  std::unique_lock lock(mutex_);
+  if (joined_ == settings_.max_joined) throw ProblemError(api::Code::overloaded, "too many requests wait for a match; try again");
+  ++joined_;
+  landed_.wait(lock, [&flight] { return flight->landed; });
+  --joined_;
+  if (flight->error) std::rethrow_exception(flight->error);
+  return {flight->result, MatchSource::joined};
+}
+
+MatchAnswer MatchService::lead(const FlightPointer& flight, const std::string& key, const MatchQuery& query, Gate::Permit* permit) {
+  MatchAnswer found;
+  std::exception_ptr error;
+  try {
+    // Once more: another flight may have landed between the look into the caches and the start of this one.
+    found = find(key);
+    if (!found.result) {
+      std::optional<Gate::Permit> own;
+      if (permit == nullptr) own.emplace(gate_.enter());
+      found = {compute(query), MatchSource::computed};
+      keep(key, query, found.result);
+    }
+  } catch (...) {
+    error = std::current_exception();
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    flight->result = found.result;
+    flight->error = error;
+    flight->landed = true;
+    flights_.erase(key);
+  }
+  landed_.notify_all();
+  if (error) std::rethrow_exception(error);
+  return found;
+}
+
+MatchPointer MatchService::compute(const MatchQuery& query) {
+  const ShapePointer source = shapes_.load(query.src);
+  const ShapePointer target = shapes_.load(query.tgt);
+  return std::make_shared<const MatchResult>(engine_.match(*source, *target, query.parameters, {.report = {}, .stop = stop_}));
+}
+
+void MatchService::keep(const std::string& key, const MatchQuery& query, const MatchPointer& result) {
+  memory_.put(key, result, memory_size(*result));
+  try {
+    store_.save(key, query.src, query.tgt, engine_.version(), *result);
+  } catch (const StorageError& error) {
+    // The answer is there; only the next one has to be computed again.
+    spdlog::warn("event=match_not_stored key={} detail=\"{}\"", key, error.what());
+  }
+}
+
+}  // namespace spherematch

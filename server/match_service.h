@@ -1,0 +1,104 @@
+// Matches, each computed once: from memory, from the store, or by the engine.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "engine/data/correspondence.h"
+#include "engine/data/parameters.h"
+#include "server/engine_port.h"
+#include "server/gate.h"
+#include "server/lru_cache.h"
+#include "server/shape_service.h"
+#include "storage/match_store.h"
+
+namespace spherematch {
+
+using MatchPointer = std::shared_ptr<const MatchResult>;
+
+/// Everything that determines a result.
+struct MatchQuery {
+  std::string src;  ///< shape ids
+  std::string tgt;
+  MatchParameters parameters;
+};
+
+/// Where a result came from.
+enum class MatchSource { computed, memory, store, joined };  ///< joined: computed at this moment for another request
+
+/// "computed", "memory", "store", "joined".
+[[nodiscard]] std::string_view to_string(MatchSource source);
+
+struct MatchAnswer {
+  MatchPointer result;
+  MatchSource source = MatchSource::computed;
+
+  [[nodiscard]] bool cached() const { return source == MatchSource::memory || source == MatchSource::store; }
+};
+
+struct MatchServiceSettings {
+  std::size_t memory_bytes = std::size_t{64} << 20;
+  std::size_t max_joined = 64;                                    ///< requests that wait for another's result; further ones get 503
+  std::function<void(MatchSource, double seconds)> observe = {};  ///< called for every answer; must be thread-safe and not throw
+};
+
+/// Thread-safe.
+class MatchService {
+ public:
+  /// All must outlive this. `stop` ends computations when the server stops.
+  MatchService(ShapeService& shapes, MatchStore& store, const EnginePort& engine, Gate& gate, std::stop_token stop,
+               const MatchServiceSettings& settings);
+
+  enum class Cache { use, bypass };                ///< bypass: computed afresh and not kept
+  enum class Urgency { interactive, background };  ///< background: only when nobody else waits, but without a bound on the waiting
+
+  /// The result for two shapes that are ready. Concurrent calls for the same query compute once.
+  /// @throws ProblemError(not_found, shape_failed, shape_not_ready, overloaded, draining), EngineError(cancelled, invalid_parameter)
+  [[nodiscard]] MatchAnswer get(const MatchQuery& query, Cache cache = Cache::use, Urgency urgency = Urgency::interactive);
+
+  /// What names a query in caches and entity tags: the same text for the same result, for one engine version.
+  [[nodiscard]] std::string key_of(const MatchQuery& query) const;
+
+  [[nodiscard]] std::string engine_version() const { return engine_.version(); }
+
+  /// Drops what is in memory of a shape that was removed; the store does so by itself.
+  void forget(const std::string& shape);
+
+  [[nodiscard]] std::size_t memory_bytes() const { return memory_.bytes(); }
+  [[nodiscard]] std::size_t store_bytes() const { return store_.bytes(); }
+
+ private:
+  /// A computation under way and all who wait for it.
+  struct Flight;
+  using FlightPointer = std::shared_ptr<Flight>;
+
+  [[nodiscard]] MatchAnswer answer(const MatchQuery& query, Cache cache, Urgency urgency);
+  [[nodiscard]] MatchAnswer find(const std::string& key);
+  [[nodiscard]] MatchAnswer compute_or_join(const std::string& key, const MatchQuery& query, Urgency urgency);
+  /// The flight of the key; `mine` is set where there was none before.
+  [[nodiscard]] FlightPointer board(const std::string& key, bool& mine);
+  [[nodiscard]] MatchAnswer join(const FlightPointer& flight);
+  [[nodiscard]] MatchAnswer lead(const FlightPointer& flight, const std::string& key, const MatchQuery& query, Gate::Permit* permit);
+  [[nodiscard]] MatchPointer compute(const MatchQuery& query);
+  void keep(const std::string& key, const MatchQuery& query, const MatchPointer& result);
+
+  ShapeService& shapes_;
+  MatchStore& store_;
+  const EnginePort& engine_;
+  Gate& gate_;
+  const std::stop_token stop_;
+  const MatchServiceSettings settings_;
+  LruCache<MatchResult> memory_;
+  std::mutex mutex_;
+  std::condition_variable landed_;
+  std::unordered_map<std::string, FlightPointer> flights_;
+  std::size_t joined_ = 0;
+};
+
+}  // namespace spherematch

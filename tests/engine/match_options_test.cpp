@@ -1,0 +1,91 @@
+// What a caller may ask of a match beside the map itself.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <vector>
+
+#include "engine/engine.h"
+#include "engine/mesh/repair.h"
+#include "tests/support/meshes.h"
+#include "tests/support/surface_checks.h"
+
+namespace spherematch {
+namespace {
+
+/// Cheap parameters, for what does not depend on accuracy.
+PreprocessParameters quick() {
+  PreprocessParameters parameters;
+  parameters.conformal_steps = 20;
+  parameters.authalic_resolution = 64;
+  parameters.authalic_steps = 20;
+  parameters.eigenpairs = 60;
+  parameters.signal_resolution = 32;
+  return parameters;
+}
+
+PreprocessedShape prepared(const TriMesh& mesh) { return preprocess(repair(test::polygons(mesh), RepairMode::none), quick()); }
+
+/// Stretched, and bent about the x axis.
+TriMesh bent(TriMesh mesh) {
+  for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+    const double y = 1.2 * mesh.vertices(v, 1), z = mesh.vertices(v, 2), angle = 0.15 * z;
+    mesh.vertices.row(v) << 0.9 * mesh.vertices(v, 0), std::cos(angle) * y - std::sin(angle) * z, std::sin(angle) * y + std::cos(angle) * z;
+  }
+  return mesh;
+}
+
+template <typename Matrix>
+bool same_bytes(const Matrix& a, const Matrix& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() &&
+         std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(typename Matrix::Scalar)) == 0;
+}
+
+void expect_same_map(const Correspondence& a, const Correspondence& b) {
+  EXPECT_EQ(a.vertex, b.vertex);
+  EXPECT_TRUE(same_bytes(a.corners, b.corners));
+  EXPECT_TRUE(same_bytes(a.bary, b.bary));
+}
+
+Points images(const Correspondence& map, const TriMesh& target) {
+  Points result = Points::Zero(map.corners.rows(), 3);
+  for (Eigen::Index i = 0; i < result.rows(); ++i)
+    for (int k = 0; k < 3; ++k) result.row(i) += static_cast<double>(map.bary(i, k)) * target.vertices.row(map.corners(i, k));
+  return result;
+}
+
+/// Mean distance between the rows, relative to the square root of the mesh's area.
+double mean_distance(const Points& a, const Points& b, const TriMesh& mesh) {
+  return (a - b).rowwise().norm().mean() / std::sqrt(test::total_area(mesh));
+}
+
+class BothWays : public ::testing::TestWithParam<bool> {};
+
+TEST_P(BothWays, TheReverseMapIsTheInverseOfTheSameRegistration) {
+  const TriMesh a = test::creature(3), b = bent(test::creature(4));
+  const PreprocessedShape source = prepared(a), target = prepared(b);
+  MatchParameters parameters = GetParam() ? MatchParameters::paper() : MatchParameters{};
+  parameters.flow_times = {0.5, 0.25};
+  const MatchResult one_way = match(source, target, parameters);
+  EXPECT_TRUE(one_way.reverse.vertex.empty());
+  EXPECT_EQ(one_way.reverse.corners.rows(), 0);
+  parameters.both = true;
+  const MatchResult result = match(source, target, parameters);
+  expect_same_map(result.map, one_way.map);
+  EXPECT_FALSE(result.reversed);
+  ASSERT_EQ(result.reverse.vertex.size(), static_cast<std::size_t>(b.vertex_count()));
+  // There and back within the size of a triangle: both directions interpolate linearly on different meshes.
+  const Points back = images(result.reverse, a);
+  Points there_and_back = Points::Zero(a.vertex_count(), 3);
+  for (Eigen::Index i = 0; i < there_and_back.rows(); ++i)
+    for (int k = 0; k < 3; ++k) there_and_back.row(i) += static_cast<double>(result.map.bary(i, k)) * back.row(result.map.corners(i, k));
+  EXPECT_LT(mean_distance(there_and_back, a.vertices, a), 0.004);
+  expect_same_map(match(source, target, parameters, {}, 1).reverse, result.reverse);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, BothWays, ::testing::Values(false, true),
+                         [](const auto& tested) { return tested.param ? "Paper" : "Default"; });
+
+}  // namespace
+}  // namespace spherematch
