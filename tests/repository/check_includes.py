@@ -43,6 +43,7 @@ class Library:
 
 
 LIBRARIES = (
+    Library("the installed client", r"spherematch/.*", ("client",)),  # in its example, a project of its own
     Library("Eigen", r"(unsupported/)?Eigen/.*", ("engine", "storage"), everywhere=True),
     Library("nlohmann_json", r"nlohmann/.*", ("api", "server", "client"), everywhere=True),
     Library("cpp-httplib", r"httplib\.h", ("server", "client"), everywhere=True),
