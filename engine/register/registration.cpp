@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <numeric>
 
 #include "engine/data/parallel.h"
-#include "engine/mesh/laplacian.h"
 #include "engine/register/composition.h"
+#include "engine/register/mirror.h"
 #include "engine/register/optical_flow.h"
 #include "engine/register/rotation.h"
 #include "engine/register/selection.h"
-#include "engine/spectrum/signatures.h"
-#include "engine/sphere/flip_repair.h"
+#include "engine/register/side.h"
 #include "engine/sphere/harmonics.h"
 #include "engine/sphere/orientation.h"
 
@@ -31,37 +31,9 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// What registration reads of one shape.
-struct Side {
-  const PreprocessedShape& shape;
-  Eigen::MatrixXd flow_signals;
-  Eigen::MatrixXd selection;
-  Eigen::VectorXd weights;  ///< vertex areas, sum 1
-  FlipRepair repair;
-
-  Side(const PreprocessedShape& s, const MatchParameters& parameters)
-      : shape(s),
-        flow_signals(heat_kernel_signatures(s.eigenvalues, s.eigenvectors, parameters.flow_times)),
-        weights(vertex_areas(s.surface.mesh.vertices, s.surface.mesh.faces)),
-        repair(s.surface.mesh) {
-    weights /= weights.sum();
-    selection = parameters.paper_selection ? heat_kernel_signatures(s.eigenvalues, s.eigenvectors, {0.01}) : selection_signals(s);
-  }
-  [[nodiscard]] const Triangles& faces() const { return shape.surface.mesh.faces; }
-};
-
-/// The stored signal that rotations are aligned by.
-const Eigen::MatrixXf& rotation_grid(const PreprocessedShape& shape, const MatchParameters& parameters) {
-  const std::string name = hks_name(parameters.rotation_time);
-  const auto signal = std::find_if(shape.signals.begin(), shape.signals.end(), [&name](const SignalGrid& s) { return s.name == name; });
-  if (signal == shape.signals.end())
-    throw EngineError(ErrorCode::invalid_parameter, "rotation_time must be one of the times at which the shape's signals are stored");
-  return signal->values;
-}
-
-std::vector<RotationCandidate> find_candidates(const PreprocessedShape& source, const PreprocessedShape& target,
+std::vector<RotationCandidate> find_candidates(const PreprocessedShape& source, bool mirrored, const PreprocessedShape& target,
                                                const MatchParameters& parameters) {
-  const Eigen::MatrixXf &s = rotation_grid(source, parameters), &t = rotation_grid(target, parameters);
+  const Eigen::MatrixXf s = rotation_grid(source, parameters, mirrored), t = rotation_grid(target, parameters, false);
   const auto finest = static_cast<int>(std::min(s.rows(), t.rows()));
   const int degree = std::min(parameters.rotation_bandwidth, finest / 2) - 1;
   const auto harmonics = [degree](const Eigen::MatrixXf& grid) {
@@ -90,24 +62,28 @@ struct Registration {
 /// Rotation and flow are split evenly, so that exchanging the shapes gives the inverse map.
 Registration rotated(const Side& source, const Side& target, const Eigen::Matrix3d& rotation) {
   const Eigen::Matrix3d half = half_rotation(rotation);
-  return {{&source.faces(), &source.flow_signals, &source.repair, source.shape.sphere * half.transpose()},
-          {&target.faces(), &target.flow_signals, &target.repair, target.shape.sphere * half},
+  return {{&source.mesh.faces, &source.signals.flow, &source.repair, source.sphere * half.transpose()},
+          {&target.mesh.faces, &target.signals.flow, &target.repair, target.sphere * half},
           {},
           {},
           0};
 }
 
+std::vector<Location> locate_back(const Registration& registration) {
+  return locate_all(registration.target.sphere, PointLocation(registration.source.sphere, *registration.source.faces));
+}
+
 void judge(Registration& registration, const Side& source, const Side& target, const MatchParameters& parameters) {
   const Points &s = registration.source.sphere, &t = registration.target.sphere;
-  registration.locations = locate_all(s, PointLocation(t, target.faces()));
+  const SideSignals &f = source.signals, &g = target.signals;
+  registration.locations = locate_all(s, PointLocation(t, target.mesh.faces));
   if (parameters.paper_selection) {
-    registration.score = paper_cost(s, source.faces(), source.selection, t, target.faces(), target.selection, 128);
+    registration.score = paper_cost(s, source.mesh.faces, f.selection, t, target.mesh.faces, g.selection, 128);
     return;
   }
-  registration.back = locate_all(t, PointLocation(s, source.faces()));
-  registration.score =
-      0.5 * (registration_cost(source.selection, source.weights, target.selection, target.faces(), registration.locations) +
-             registration_cost(target.selection, target.weights, source.selection, source.faces(), registration.back));
+  registration.back = locate_back(registration);
+  registration.score = 0.5 * (registration_cost(f.selection, f.weights, g.selection, target.mesh.faces, registration.locations) +
+                              registration_cost(g.selection, g.weights, f.selection, source.mesh.faces, registration.back));
 }
 
 /// Flows the candidates: all of them through the coarse levels, the most promising ones to the end. Returns the index of the best.
@@ -136,17 +112,61 @@ std::size_t flow_candidates(std::vector<Registration>& registrations, const Side
   return order.front();
 }
 
-MatchQuality measure_map(const Side& source, const Side& target, const std::vector<Registration>& registrations, std::size_t chosen) {
+/// All that is done with the source as it is, or with its mirror image.
+struct Attempt {
+  explicit Attempt(bool as_mirror_image) : mirrored(as_mirror_image) {}
+
+  bool mirrored;
+  std::vector<RotationCandidate> candidates;
+  std::unique_ptr<const Side> source;  ///< stays in place: the registrations refer to it
+  std::vector<Registration> registrations;
+  std::size_t chosen = 0;
+
+  [[nodiscard]] const Registration& best() const { return registrations[chosen]; }
+};
+
+std::vector<Attempt> attempts_for(Orientation orientation) {
+  std::vector<Attempt> attempts;
+  if (orientation != Orientation::reverse) attempts.emplace_back(false);
+  if (orientation != Orientation::preserve) attempts.emplace_back(true);
+  return attempts;
+}
+
+/// The candidates of all attempts, by falling correlation.
+std::vector<CandidateSummary> summarize(const std::vector<Attempt>& attempts, const Attempt& best) {
+  std::vector<CandidateSummary> summaries;
+  for (const Attempt& attempt : attempts) {
+    const Eigen::Matrix3d before = attempt.mirrored ? mirror_matrix() : Eigen::Matrix3d::Identity();
+    for (std::size_t i = 0; i < attempt.candidates.size(); ++i) {
+      CandidateSummary summary;
+      Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(summary.rotation.data()) = attempt.candidates[i].rotation * before;
+      summary.correlation = attempt.candidates[i].correlation;
+      summary.score = attempt.registrations[i].score;
+      summary.chosen = &attempt == &best && i == attempt.chosen;
+      summaries.push_back(summary);
+    }
+  }
+  std::stable_sort(summaries.begin(), summaries.end(), [](const auto& a, const auto& b) { return a.correlation > b.correlation; });
+  return summaries;
+}
+
+MatchQuality measure_map(const Registration& best, const std::vector<CandidateSummary>& candidates) {
   double runner_up = 0;
-  for (std::size_t i = 0; i < registrations.size(); ++i)
-    if (i != chosen && (runner_up == 0 || registrations[i].score < runner_up)) runner_up = registrations[i].score;
-  const Registration& best = registrations[chosen];
+  for (const CandidateSummary& candidate : candidates)
+    if (!candidate.chosen && (runner_up == 0 || candidate.score < runner_up)) runner_up = candidate.score;
   return {
-      {"flipped_source", static_cast<double>(flipped_faces(best.source.sphere, source.faces()).size())},
-      {"flipped_target", static_cast<double>(flipped_faces(best.target.sphere, target.faces()).size())},
+      {"flipped_source", static_cast<double>(flipped_faces(best.source.sphere, *best.source.faces).size())},
+      {"flipped_target", static_cast<double>(flipped_faces(best.target.sphere, *best.target.faces).size())},
       {"score", best.score},
       {"score_runner_up", runner_up},
   };
+}
+
+/// The map from target to source; of locations in the faces of the source itself.
+Correspondence compose_reverse(const Surface& source, const Surface& target, const Attempt& best) {
+  std::vector<Location> back = best.best().back.empty() ? locate_back(best.best()) : best.best().back;
+  if (best.mirrored) std::transform(back.begin(), back.end(), back.begin(), mirrored_location);
+  return compose(target, source, back);
 }
 
 }  // namespace
@@ -160,32 +180,29 @@ MatchResult register_pair(const PreprocessedShape& source_shape, const Preproces
   MatchResult result;
 
   report("rotation", 0);
-  const std::vector<RotationCandidate> candidates = find_candidates(source_shape, target_shape, parameters);
+  std::vector<Attempt> attempts = attempts_for(parameters.orientation);
+  for (Attempt& attempt : attempts) attempt.candidates = find_candidates(source_shape, attempt.mirrored, target_shape, parameters);
   result.seconds.emplace_back("rotation", watch.lap());
 
   report("flow", 0.1);
-  const Side source(source_shape, parameters), target(target_shape, parameters);
-  std::vector<Registration> registrations;
-  for (const RotationCandidate& candidate : candidates) registrations.push_back(rotated(source, target, candidate.rotation));
-  const std::size_t chosen = flow_candidates(registrations, source, target, parameters, progress, threads);
+  const SideSignals source_signals(source_shape, parameters), target_signals(target_shape, parameters);
+  const Side target(target_shape, target_signals, false);
+  for (Attempt& attempt : attempts) {
+    attempt.source = std::make_unique<const Side>(source_shape, source_signals, attempt.mirrored);
+    for (const RotationCandidate& candidate : attempt.candidates)
+      attempt.registrations.push_back(rotated(*attempt.source, target, candidate.rotation));
+    attempt.chosen = flow_candidates(attempt.registrations, *attempt.source, target, parameters, progress, threads);
+  }
   result.seconds.emplace_back("flow", watch.lap());
 
   report("correspondence", 0.95);
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    CandidateSummary summary;
-    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(summary.rotation.data()) = candidates[i].rotation;
-    summary.correlation = candidates[i].correlation;
-    summary.score = registrations[i].score;
-    summary.chosen = i == chosen;
-    result.candidates.push_back(summary);
-  }
-  Registration& best = registrations[chosen];
-  result.map = compose(source_shape.surface, target_shape.surface, best.locations);
-  if (parameters.both) {
-    if (best.back.empty()) best.back = locate_all(best.target.sphere, PointLocation(best.source.sphere, source.faces()));
-    result.reverse = compose(target_shape.surface, source_shape.surface, best.back);
-  }
-  result.quality = measure_map(source, target, registrations, chosen);
+  const Attempt& best = *std::min_element(attempts.begin(), attempts.end(),
+                                          [](const Attempt& a, const Attempt& b) { return a.best().score < b.best().score; });
+  result.reversed = best.mirrored;
+  result.candidates = summarize(attempts, best);
+  result.map = compose(source_shape.surface, target_shape.surface, best.best().locations);
+  if (parameters.both) result.reverse = compose_reverse(source_shape.surface, target_shape.surface, best);
+  result.quality = measure_map(best.best(), result.candidates);
   result.seconds.emplace_back("correspondence", watch.lap());
   result.seconds.emplace_back("total", total.lap());
   report("correspondence", 1);

@@ -87,5 +87,83 @@ TEST_P(BothWays, TheReverseMapIsTheInverseOfTheSameRegistration) {
 INSTANTIATE_TEST_SUITE_P(Methods, BothWays, ::testing::Values(false, true),
                          [](const auto& tested) { return tested.param ? "Paper" : "Default"; });
 
+TriMesh mirror_image(TriMesh mesh) {
+  mesh.vertices.col(0) *= -1;
+  mesh.faces.col(1).swap(mesh.faces.col(2));
+  return mesh;
+}
+
+Eigen::Matrix3d chosen_rotation(const MatchResult& result) {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();
+  int chosen = 0;
+  for (const CandidateSummary& candidate : result.candidates) {
+    if (!candidate.chosen) continue;
+    rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(candidate.rotation.data());
+    ++chosen;
+  }
+  EXPECT_EQ(chosen, 1);
+  return rotation;
+}
+
+/// A body, another pose of it, and the mirror image of that pose; vertices of equal number belong together.
+class MirroredBody : public ::testing::Test {
+ protected:
+  [[nodiscard]] MatchResult matched(const PreprocessedShape& target, Orientation orientation, int threads = 2) const {
+    MatchParameters parameters;
+    parameters.orientation = orientation;
+    parameters.both = true;
+    parameters.flow_times = {0.5, 0.25};
+    return match(source_, target, parameters, {}, threads);
+  }
+  [[nodiscard]] static double error(const MatchResult& result, const TriMesh& target) {
+    return mean_distance(images(result.map, target), target.vertices, target);
+  }
+
+  const TriMesh body_ = test::creature(3), pose_ = bent(body_),
+                image_ = mirror_image(test::transformed(pose_, 2, test::some_rotation(), {1, 2, 3}));
+  const PreprocessedShape source_ = prepared(body_), target_ = prepared(pose_), mirrored_ = prepared(image_);
+};
+
+TEST_F(MirroredBody, IsMatchedInReverseOnly) {
+  const MatchResult reverse = matched(mirrored_, Orientation::reverse);
+  EXPECT_TRUE(reverse.reversed);
+  EXPECT_LT(error(reverse, image_), 0.05);
+  EXPECT_GT(error(matched(mirrored_, Orientation::preserve), image_), 0.1);
+  EXPECT_GT(error(matched(target_, Orientation::reverse), pose_), 0.1);
+
+  // The map back is the inverse of the same registration, and on the source as it is.
+  EXPECT_LT(mean_distance(images(reverse.reverse, body_), body_.vertices, body_), 0.05);
+  // The rotation takes the source sphere straight onto the target sphere.
+  const Eigen::Matrix3d rotation = chosen_rotation(reverse);
+  EXPECT_NEAR(rotation.determinant(), -1, 1e-12);
+  EXPECT_LT((source_.sphere * rotation.transpose() - mirrored_.sphere).rowwise().norm().mean(), 0.2);
+}
+
+TEST_F(MirroredBody, TheSameMapAsOfTheMirroredFile) {
+  // A mirrored source file matched as it is, against the source mirrored by the engine.
+  const MatchResult by_engine = matched(mirrored_, Orientation::reverse);
+  MatchParameters parameters;
+  parameters.flow_times = {0.5, 0.25};
+  const MatchResult by_file = match(prepared(mirror_image(body_)), mirrored_, parameters);
+  EXPECT_LT(mean_distance(images(by_engine.map, image_), images(by_file.map, image_), image_), 1e-3);
+}
+
+TEST_F(MirroredBody, AnyTakesTheBetterOfBoth) {
+  for (const PreprocessedShape* target : {&target_, &mirrored_}) {
+    const MatchResult any = matched(*target, Orientation::any), preserve = matched(*target, Orientation::preserve),
+                      reverse = matched(*target, Orientation::reverse);
+    EXPECT_EQ(any.reversed, target == &mirrored_);
+    const MatchResult& better = any.reversed ? reverse : preserve;
+    expect_same_map(any.map, better.map);
+    expect_same_map(any.reverse, better.reverse);
+    EXPECT_EQ(any.candidates.size(), preserve.candidates.size() + reverse.candidates.size());
+    for (std::size_t i = 1; i < any.candidates.size(); ++i) EXPECT_GE(any.candidates[i - 1].correlation, any.candidates[i].correlation);
+    EXPECT_NEAR(chosen_rotation(any).determinant(), any.reversed ? -1 : 1, 1e-12);
+    const MatchResult on_one_thread = matched(*target, Orientation::any, 1);
+    expect_same_map(on_one_thread.map, any.map);
+    expect_same_map(on_one_thread.reverse, any.reverse);
+  }
+}
+
 }  // namespace
 }  // namespace spherematch
