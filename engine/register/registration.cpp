@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <memory>
-#include <numeric>
 
-#include "engine/data/parallel.h"
+#include "engine/register/candidate_flow.h"
 #include "engine/register/composition.h"
+#include "engine/register/hints.h"
 #include "engine/register/mirror.h"
-#include "engine/register/optical_flow.h"
 #include "engine/register/rotation.h"
-#include "engine/register/selection.h"
 #include "engine/register/side.h"
 #include "engine/sphere/harmonics.h"
 #include "engine/sphere/orientation.h"
@@ -31,85 +30,23 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// The best rotations of the stored signals and, where hints determine one, that of the hints, by falling correlation.
 std::vector<RotationCandidate> find_candidates(const PreprocessedShape& source, bool mirrored, const PreprocessedShape& target,
-                                               const MatchParameters& parameters) {
+                                               const std::vector<PlacedHint>& hints, const MatchParameters& parameters) {
   const Eigen::MatrixXf s = rotation_grid(source, parameters, mirrored), t = rotation_grid(target, parameters, false);
   const auto finest = static_cast<int>(std::min(s.rows(), t.rows()));
   const int degree = std::min(parameters.rotation_bandwidth, finest / 2) - 1;
   const auto harmonics = [degree](const Eigen::MatrixXf& grid) {
     return HarmonicTransform(static_cast<int>(grid.rows()), degree).analyze(grid.cast<double>().array());
   };
-  return align_rotations({harmonics(s)}, {harmonics(t)}, degree, parameters);
-}
-
-/// The hierarchy's levels `first` to `last` - 1.
-FlowParameters flow_levels(const MatchParameters& parameters, std::size_t first, std::size_t last) {
-  FlowParameters flow;
-  flow.smoothness = parameters.flow_smoothness;
-  for (std::size_t level = first; level < last; ++level)
-    flow.levels.push_back({parameters.flow_resolution << level, parameters.flow_iterations, {static_cast<Eigen::Index>(level)}});
-  return flow;
-}
-
-/// One candidate on its way through the flow.
-struct Registration {
-  FlowShape source, target;
-  std::vector<Location> locations;  ///< of the source's vertices in the target
-  std::vector<Location> back;       ///< of the target's vertices in the source
-  double score = 0;
-};
-
-/// Rotation and flow are split evenly, so that exchanging the shapes gives the inverse map.
-Registration rotated(const Side& source, const Side& target, const Eigen::Matrix3d& rotation) {
-  const Eigen::Matrix3d half = half_rotation(rotation);
-  return {{&source.mesh.faces, &source.signals.flow, &source.repair, source.sphere * half.transpose()},
-          {&target.mesh.faces, &target.signals.flow, &target.repair, target.sphere * half},
-          {},
-          {},
-          0};
-}
-
-std::vector<Location> locate_back(const Registration& registration) {
-  return locate_all(registration.target.sphere, PointLocation(registration.source.sphere, *registration.source.faces));
-}
-
-void judge(Registration& registration, const Side& source, const Side& target, const MatchParameters& parameters) {
-  const Points &s = registration.source.sphere, &t = registration.target.sphere;
-  const SideSignals &f = source.signals, &g = target.signals;
-  registration.locations = locate_all(s, PointLocation(t, target.mesh.faces));
-  if (parameters.paper_selection) {
-    registration.score = paper_cost(s, source.mesh.faces, f.selection, t, target.mesh.faces, g.selection, 128);
-    return;
+  const std::vector<Harmonics> f{harmonics(s)}, g{harmonics(t)};
+  std::vector<RotationCandidate> candidates = align_rotations(f, g, degree, parameters);
+  if (const auto hinted = rotation_from_hints(mirrored ? mirrored_points(source.sphere) : source.sphere, target.sphere, hints)) {
+    const RotationCandidate extra{*hinted, rotation_correlation(f, g, degree, *hinted)};
+    const auto better = [](const RotationCandidate& a, const RotationCandidate& b) { return a.correlation > b.correlation; };
+    candidates.insert(std::upper_bound(candidates.begin(), candidates.end(), extra, better), extra);
   }
-  registration.back = locate_back(registration);
-  registration.score = 0.5 * (registration_cost(f.selection, f.weights, g.selection, target.mesh.faces, registration.locations) +
-                              registration_cost(g.selection, g.weights, f.selection, source.mesh.faces, registration.back));
-}
-
-/// Flows the candidates: all of them through the coarse levels, the most promising ones to the end. Returns the index of the best.
-std::size_t flow_candidates(std::vector<Registration>& registrations, const Side& source, const Side& target,
-                            const MatchParameters& parameters, const Progress& progress, int threads) {
-  const std::size_t levels = parameters.flow_times.size();
-  std::vector<std::size_t> order(registrations.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto better = [&](std::size_t i, std::size_t j) { return registrations[i].score < registrations[j].score; };
-  const auto flow = [&](std::size_t first, std::size_t last) {
-    run_parallel(order.size(), threads, [&](std::size_t i) {
-      Registration& registration = registrations[order[i]];
-      flow_together(registration.source, registration.target, flow_levels(parameters, first, last), progress);
-      judge(registration, source, target, parameters);
-    });
-    std::stable_sort(order.begin(), order.end(), better);
-  };
-
-  std::size_t coarse = 0;
-  if (const auto fine = static_cast<std::size_t>(parameters.fine_candidates); order.size() > fine) {
-    coarse = levels / 2;
-    flow(0, coarse);
-    order.resize(fine);
-  }
-  flow(coarse, levels);
-  return order.front();
+  return candidates;
 }
 
 /// All that is done with the source as it is, or with its mirror image.
@@ -132,20 +69,26 @@ std::vector<Attempt> attempts_for(Orientation orientation) {
   return attempts;
 }
 
+/// A rotation with the score of its chosen registration, else of its best.
+CandidateSummary summarize(const Attempt& attempt, std::size_t candidate, bool in_best_attempt) {
+  CandidateSummary summary;
+  const Eigen::Matrix3d rotation = attempt.candidates[candidate].rotation;
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(summary.rotation.data()) =
+      attempt.mirrored ? rotation * mirror_matrix() : rotation;
+  summary.correlation = attempt.candidates[candidate].correlation;
+  summary.chosen = in_best_attempt && attempt.best().candidate == candidate;
+  summary.score = std::numeric_limits<double>::infinity();
+  for (const Registration& registration : attempt.registrations)
+    if (registration.candidate == candidate) summary.score = std::min(summary.score, registration.score);
+  if (summary.chosen) summary.score = attempt.best().score;
+  return summary;
+}
+
 /// The candidates of all attempts, by falling correlation.
-std::vector<CandidateSummary> summarize(const std::vector<Attempt>& attempts, const Attempt& best) {
+std::vector<CandidateSummary> summarize_all(const std::vector<Attempt>& attempts, const Attempt& best) {
   std::vector<CandidateSummary> summaries;
-  for (const Attempt& attempt : attempts) {
-    const Eigen::Matrix3d before = attempt.mirrored ? mirror_matrix() : Eigen::Matrix3d::Identity();
-    for (std::size_t i = 0; i < attempt.candidates.size(); ++i) {
-      CandidateSummary summary;
-      Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(summary.rotation.data()) = attempt.candidates[i].rotation * before;
-      summary.correlation = attempt.candidates[i].correlation;
-      summary.score = attempt.registrations[i].score;
-      summary.chosen = &attempt == &best && i == attempt.chosen;
-      summaries.push_back(summary);
-    }
-  }
+  for (const Attempt& attempt : attempts)
+    for (std::size_t i = 0; i < attempt.candidates.size(); ++i) summaries.push_back(summarize(attempt, i, &attempt == &best));
   std::stable_sort(summaries.begin(), summaries.end(), [](const auto& a, const auto& b) { return a.correlation > b.correlation; });
   return summaries;
 }
@@ -180,8 +123,9 @@ MatchResult register_pair(const PreprocessedShape& source_shape, const Preproces
   MatchResult result;
 
   report("rotation", 0);
+  const std::vector<PlacedHint> hints = place_hints(source_shape.surface, target_shape.surface, parameters.hints);
   std::vector<Attempt> attempts = attempts_for(parameters.orientation);
-  for (Attempt& attempt : attempts) attempt.candidates = find_candidates(source_shape, attempt.mirrored, target_shape, parameters);
+  for (Attempt& attempt : attempts) attempt.candidates = find_candidates(source_shape, attempt.mirrored, target_shape, hints, parameters);
   result.seconds.emplace_back("rotation", watch.lap());
 
   report("flow", 0.1);
@@ -189,9 +133,11 @@ MatchResult register_pair(const PreprocessedShape& source_shape, const Preproces
   const Side target(target_shape, target_signals, false);
   for (Attempt& attempt : attempts) {
     attempt.source = std::make_unique<const Side>(source_shape, source_signals, attempt.mirrored);
-    for (const RotationCandidate& candidate : attempt.candidates)
-      attempt.registrations.push_back(rotated(*attempt.source, target, candidate.rotation));
-    attempt.chosen = flow_candidates(attempt.registrations, *attempt.source, target, parameters, progress, threads);
+    const Pair pair{*attempt.source, target, hints, parameters};
+    std::vector<Eigen::Matrix3d> rotations;
+    for (const RotationCandidate& candidate : attempt.candidates) rotations.push_back(candidate.rotation);
+    attempt.registrations = start_registrations(pair, rotations);
+    attempt.chosen = flow_candidates(attempt.registrations, pair, progress, threads);
   }
   result.seconds.emplace_back("flow", watch.lap());
 
@@ -199,7 +145,7 @@ MatchResult register_pair(const PreprocessedShape& source_shape, const Preproces
   const Attempt& best = *std::min_element(attempts.begin(), attempts.end(),
                                           [](const Attempt& a, const Attempt& b) { return a.best().score < b.best().score; });
   result.reversed = best.mirrored;
-  result.candidates = summarize(attempts, best);
+  result.candidates = summarize_all(attempts, best);
   result.map = compose(source_shape.surface, target_shape.surface, best.best().locations);
   if (parameters.both) result.reverse = compose_reverse(source_shape.surface, target_shape.surface, best);
   result.quality = measure_map(best.best(), result.candidates);

@@ -182,6 +182,16 @@ std::vector<RotationCandidate> align_rotations(const std::vector<Harmonics>& sou
   return kept;
 }
 
+double rotation_correlation(const std::vector<Harmonics>& source, const std::vector<Harmonics>& target, int degree,
+                            const Eigen::Matrix3d& rotation) {
+  double value = 0;
+  for (std::size_t c = 0; c < source.size(); ++c) {
+    const Signal rotated = rotate_coefficients(normalized(source[c], degree), rotation), g = normalized(target[c], degree);
+    for (std::size_t l = 1; l < rotated.size(); ++l) value += g[l].dot(rotated[l]).real();
+  }
+  return value / static_cast<double>(source.size());
+}
+
 Eigen::Matrix3d half_rotation(const Eigen::Matrix3d& rotation) {
   const Eigen::AngleAxisd whole(rotation);
   return Eigen::AngleAxisd(whole.angle() / 2, whole.axis()).toRotationMatrix();

@@ -21,6 +21,10 @@ struct RotationCandidate {
 [[nodiscard]] std::vector<RotationCandidate> align_rotations(const std::vector<Harmonics>& source, const std::vector<Harmonics>& target,
                                                              int degree, const MatchParameters& parameters);
 
+/// The correlation at one rotation, of signals as above.
+[[nodiscard]] double rotation_correlation(const std::vector<Harmonics>& source, const std::vector<Harmonics>& target, int degree,
+                                          const Eigen::Matrix3d& rotation);
+
 /// The rotation by half the angle about the same axis.
 [[nodiscard]] Eigen::Matrix3d half_rotation(const Eigen::Matrix3d& rotation);
 

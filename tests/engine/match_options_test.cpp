@@ -3,7 +3,8 @@
 
 #include <cmath>
 #include <cstring>
-#include <numeric>
+#include <initializer_list>
+#include <utility>
 #include <vector>
 
 #include "engine/engine.h"
@@ -163,6 +164,88 @@ TEST_F(MirroredBody, AnyTakesTheBetterOfBoth) {
     expect_same_map(on_one_thread.map, any.map);
     expect_same_map(on_one_thread.reverse, any.reverse);
   }
+}
+
+/// An ellipsoid looks the same to every signal in eight positions.
+class SymmetricBody : public ::testing::Test {
+ protected:
+  /// The vertex at the place of `vertex` after the reflections: signs of the three coordinates.
+  [[nodiscard]] std::int32_t image(std::int32_t vertex, const Eigen::RowVector3d& signs) const {
+    std::int32_t best = 0;
+    const Eigen::RowVector3d place = body_.vertices.row(vertex).cwiseProduct(signs);
+    EXPECT_LT((body_.vertices.rowwise() - place).rowwise().squaredNorm().minCoeff(&best), 1e-20);
+    return best;
+  }
+  [[nodiscard]] std::vector<Hint> hints(std::initializer_list<std::int32_t> vertices, const Eigen::RowVector3d& signs) const {
+    std::vector<Hint> result;
+    for (const std::int32_t v : vertices) result.push_back({v, image(v, signs)});
+    return result;
+  }
+  [[nodiscard]] double error(const MatchResult& result, const Eigen::RowVector3d& signs) const {
+    return mean_distance(images(result.map, body_), body_.vertices * signs.asDiagonal(), body_);
+  }
+  [[nodiscard]] static MatchParameters with(std::vector<Hint> hints, Orientation orientation = Orientation::preserve) {
+    MatchParameters parameters;
+    parameters.hints = std::move(hints);
+    parameters.orientation = orientation;
+    parameters.flow_times = {0.5, 0.25};
+    return parameters;
+  }
+
+  const TriMesh body_ = test::ellipsoid(3, {1, 1.4, 1.9});
+  const PreprocessedShape shape_ = prepared(body_);
+};
+
+TEST_F(SymmetricBody, HintsSayWhichWayRound) {
+  for (const Eigen::RowVector3d& signs : {Eigen::RowVector3d(1, 1, 1), {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}) {
+    const MatchResult result = match(shape_, shape_, with(hints({5, 200, 400}, signs)));
+    EXPECT_LT(error(result, signs), 0.02) << signs;
+  }
+}
+
+TEST_F(SymmetricBody, HintsDecideBetweenTheBodyAndItsMirrorImage) {
+  for (const Eigen::RowVector3d& signs : {Eigen::RowVector3d(1, -1, -1), {1, -1, 1}, {-1, -1, -1}}) {
+    const MatchResult result = match(shape_, shape_, with(hints({5, 200, 400, 600}, signs), Orientation::any));
+    EXPECT_EQ(result.reversed, signs.prod() < 0) << signs;
+    EXPECT_LT(error(result, signs), 0.02) << signs;
+  }
+}
+
+TEST_F(SymmetricBody, OneWrongHintAmongFiveDoesNotRuinTheMap) {
+  const Eigen::RowVector3d signs(-1, 1, -1);
+  std::vector<Hint> mixed = hints({5, 200, 400, 600}, signs);
+  mixed.push_back({300, image(300, {1, 1, 1})});
+  EXPECT_LT(error(match(shape_, shape_, with(mixed)), signs), 0.03);
+}
+
+TEST_F(SymmetricBody, HintedMatchesAreTheSameAtAnyNumberOfThreads) {
+  MatchParameters parameters = with(hints({5, 200, 400}, {1, -1, -1}), Orientation::any);
+  parameters.both = true;
+  const MatchResult one = match(shape_, shape_, parameters, {}, 1), two = match(shape_, shape_, parameters, {}, 2);
+  expect_same_map(one.map, two.map);
+  expect_same_map(one.reverse, two.reverse);
+}
+
+TEST_F(SymmetricBody, AHintOutsideOfTheUploadIsRefused) {
+  test::expect_refusal(ErrorCode::invalid_parameter, [&] { (void)match(shape_, shape_, with({{0, 642}})); });
+}
+
+TEST(Hints, PullTogetherWhatRotationAndFlowDoNot) {
+  // A body with its lower half stretched along x, by more than the flow's smoothness allows for without help.
+  const TriMesh body = test::creature(3);
+  TriMesh other = body;
+  for (Eigen::Index v = 0; v < other.vertex_count(); ++v) {
+    double& x = other.vertices(v, 0);
+    x *= x > 0 ? 2.2 : 0.8;
+  }
+  const PreprocessedShape source = prepared(body), target = prepared(other);
+  MatchParameters parameters;
+  const MatchResult unaided = match(source, target, parameters);
+  // The ends of the coordinate axes and what is between them.
+  for (const std::int32_t v : {0, 3, 7, 20, 60, 100, 150, 300}) parameters.hints.push_back({v, v});
+  const MatchResult hinted = match(source, target, parameters);
+  const auto error = [&](const MatchResult& result) { return mean_distance(images(result.map, other), other.vertices, other); };
+  EXPECT_LT(error(hinted), 0.8 * error(unaided));
 }
 
 }  // namespace

@@ -56,6 +56,9 @@ TEST(AlignRotations, RecoversAKnownRotation) {
     // Newton's method ends at steps of 1e-12. Measured: 7e-13.
     EXPECT_LT(angle_between(found.front().rotation, rotations[i]), 1e-11);
     EXPECT_NEAR(found.front().correlation, 1, 1e-12);
+    for (const RotationCandidate& candidate : found)
+      EXPECT_NEAR(rotation_correlation({f}, {g}, degree, candidate.rotation), candidate.correlation, 1e-12);
+    EXPECT_NEAR(rotation_correlation({f}, {g}, degree, Matrix3d::Identity()), correlation(f, g, Matrix3d::Identity()), 1e-12);
   }
 }
 
