@@ -73,6 +73,7 @@ Shape read_shape(const Json& value, const std::string& path) {
   shape.faces = reader.count("faces");
   shape.sha256 = reader.text("sha256");
   shape.repair = read_repair(reader.member("repair"), reader.path_of("repair"));
+  if (!reader.is_null("simplified")) shape.simplified = reader.count("simplified");
   if (!reader.is_null("sphere")) shape.sphere = read_sphere(reader.member("sphere"), reader.path_of("sphere"));
   shape.seconds = reader.named_numbers("seconds");
   if (!reader.is_null("engine")) shape.engine = reader.text("engine");
@@ -94,6 +95,7 @@ Json to_json(const Shape& value) {
           {"faces", value.faces},
           {"sha256", value.sha256},
           {"repair", to_json(value.repair)},
+          {"simplified", value.simplified ? Json(*value.simplified) : Json(nullptr)},
           {"sphere", value.sphere ? to_json(*value.sphere) : Json(nullptr)},
           {"seconds", named_numbers_json(value.seconds)},
           {"engine", text_or_null(value.engine)},

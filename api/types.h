@@ -82,10 +82,11 @@ struct Shape {
   std::int32_t faces = 0;
   std::string sha256;
   Repair repair;
-  std::optional<Sphere> sphere;  ///< once ready
-  NamedNumbers seconds;          ///< once ready
-  std::string engine;            ///< once ready
-  std::optional<Problem> error;  ///< once failed
+  std::optional<std::int32_t> simplified;  ///< vertices of the decimated copy that was prepared in the surface's place
+  std::optional<Sphere> sphere;            ///< once ready
+  NamedNumbers seconds;                    ///< once ready
+  std::string engine;                      ///< once ready
+  std::optional<Problem> error;            ///< once failed
   std::string created_at;
   bool operator==(const Shape&) const = default;
 };

@@ -1,11 +1,13 @@
 // The subcommands. Each adds its flags to the parser, and runs after a successful parse.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "cli/preparation.h"
+#include "engine/data/parameters.h"
 
 namespace CLI {
 class App;
@@ -20,9 +22,12 @@ namespace spherematch {
 struct CommonOptions {
   std::string store = "data/spherematch.db";
   std::string repair = "fill";
+  std::int32_t simplify = 0;
   int threads = 0;  ///< 0 until add_common_options(): then the number of cores
 
-  [[nodiscard]] PreparationOptions preparation() const { return {.repair = repair_mode(repair), .threads = threads}; }
+  [[nodiscard]] PreparationOptions preparation() const {
+    return {.read = {.repair = repair_mode(repair), .simplify = simplify}, .threads = threads};
+  }
 };
 
 struct PrepareOptions : CommonOptions {
@@ -34,6 +39,8 @@ struct MatchOptions : CommonOptions {
   std::string target;
   std::string output;  ///< empty: only print
   std::string method = "default";
+  std::string orientation = "preserve";
+  std::vector<Hint> hints;
 };
 
 struct EvaluateOptions {

@@ -41,7 +41,7 @@ std::vector<Landmark> identity(std::int32_t source_vertices, std::int32_t target
 }
 
 Surface read_mesh_file(const std::string& file, const EvaluateOptions& options) {
-  return read_surface(read_file(file), file, repair_mode(options.repair));
+  return read_surface(read_file(file), file, {.repair = repair_mode(options.repair)});
 }
 
 Correspondence map_of(const EvaluateOptions& options, std::int32_t source_vertices) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 #include <thread>
 
 #include "cli/commands.h"
@@ -58,6 +59,10 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_option("--repair", options.repair, "Mend what can be mended, or refuse it")
       ->check(CLI::IsMember({"fill", "none"}))
       ->capture_default_str();
+  command
+      .add_option("--simplify", options.simplify,
+                  "Prepare a decimated copy of about this many vertices where a mesh has more; maps still speak of the mesh itself")
+      ->check(CLI::Range(ReadOptions::least_simplify, std::numeric_limits<std::int32_t>::max()));
   command.add_option("--threads", options.threads, "Threads to compute with")->check(CLI::Range(1, 256))->capture_default_str();
 }
 

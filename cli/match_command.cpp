@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <map>
 #include <utility>
 
 #include "cli/commands.h"
@@ -13,6 +14,9 @@ namespace spherematch {
 
 namespace {
 
+const std::map<std::string, Orientation> orientations{
+    {"preserve", Orientation::preserve}, {"reverse", Orientation::reverse}, {"any", Orientation::any}};
+
 Preparation prepare_side(ShapeStore& store, const std::string& mesh, const MatchOptions& options) {
   Preparation preparation = prepare_file(store, mesh, options.preparation());
   std::printf("%s: %d vertices%s\n", mesh.c_str(), preparation.shape->surface.uploaded_vertices(),
@@ -21,8 +25,24 @@ Preparation prepare_side(ShapeStore& store, const std::string& mesh, const Match
   return preparation;
 }
 
+MatchParameters parameters_of(const MatchOptions& options) {
+  MatchParameters parameters = options.method == "paper" ? MatchParameters::paper() : MatchParameters{};
+  parameters.orientation = orientations.at(options.orientation);
+  parameters.hints = options.hints;
+  return parameters;
+}
+
+/// With the error in the parser's own terms.
+std::vector<Hint> hints_of(const std::string& text) {
+  try {
+    return parse_hints(text);
+  } catch (const EngineError& error) {
+    throw CLI::ValidationError(error.what());
+  }
+}
+
 void print_result(const MatchResult& result) {
-  std::printf("match\n");
+  std::printf("match%s\n", result.reversed ? " of the source's mirror image" : "");
   print_seconds(result.seconds);
   int number = 0;
   for (const CandidateSummary& candidate : result.candidates) {
@@ -53,6 +73,16 @@ void add_match_options(CLI::App& command, MatchOptions& options) {
   command.add_option("--method", options.method, "Parameters of the match: the best measured ones, or the paper's")
       ->check(CLI::IsMember({"default", "paper"}))
       ->capture_default_str();
+  command
+      .add_option("--orientation", options.orientation,
+                  "Match the source as it is, its mirror image (left bone to right bone), or whichever scores better")
+      ->check(CLI::IsMember({"preserve", "reverse", "any"}))
+      ->capture_default_str();
+  command
+      .add_option_function<std::string>(
+          "--hints", [&options](const std::string& text) { options.hints = hints_of(text); },
+          "Vertices that correspond, numbered from 0, as SOURCE:TARGET,SOURCE:TARGET,...")
+      ->type_name("TEXT");
   add_common_options(command, options);
 }
 
@@ -64,8 +94,7 @@ int run_match(const MatchOptions& options) {
     subject = options.target;
     const Preparation target = prepare_side(store, options.target, options);
     subject = "match";
-    const MatchParameters parameters = options.method == "paper" ? MatchParameters::paper() : MatchParameters{};
-    const MatchResult result = match(*source.shape, *target.shape, parameters, {}, options.threads);
+    const MatchResult result = match(*source.shape, *target.shape, parameters_of(options), {}, options.threads);
     print_result(result);
     if (!options.output.empty()) {
       write_map(store, options, result.map, source, target);

@@ -38,13 +38,13 @@ PreprocessedShape compute(Surface surface, int threads) {
 
 Preparation prepare_file(ShapeStore& store, const std::filesystem::path& file, const PreparationOptions& options) {
   const std::vector<std::byte> bytes = read_file(file);
-  const ContentId content = content_id(bytes, upload_options(options.repair));
+  const ContentId content = content_id(bytes, upload_options(options.read));
   const auto record = store.find(content.id);
   if (record) {
     if (auto shape = stored_shape(store, *record)) return {content.id, std::move(shape), true};
   }
   const std::string name = file.filename().string();
-  if (!record) store.insert(content, name, bytes, read_surface(bytes, name, options.repair));
+  if (!record) store.insert(content, name, bytes, read_surface(bytes, name, options.read));
   // A server on the same store may prepare it at the same time. Both get the same result, and saving it twice does no harm.
   auto shape = std::make_shared<const PreprocessedShape>(compute(store.load_surface(content.id), options.threads));
   store.save_prepared(content.id, *shape);

@@ -12,7 +12,7 @@
 namespace spherematch {
 
 struct PreparationOptions {
-  RepairMode repair = RepairMode::fill;
+  ReadOptions read;
   int threads = 1;
 };
 

@@ -31,6 +31,7 @@ void print_preparation(const std::string& mesh, const Preparation& preparation) 
   std::printf("%s: %d vertices, %d faces, id %s%s\n", mesh.c_str(), shape.surface.uploaded_vertices(), shape.surface.uploaded_faces,
               preparation.id.c_str(), preparation.was_stored ? ", already in the store" : "");
   print_repair(shape.surface.report);
+  if (shape.surface.decimated) std::printf("  simplified to %td vertices\n", shape.surface.decimated->mesh.vertex_count());
   print_seconds(shape.seconds);
   std::printf("  sphere: flipped %d, solid angle defect %.1e, area distortion %.3f\n", shape.sphere_quality.flipped,
               shape.sphere_quality.solid_angle_defect, shape.sphere_quality.area_distortion);

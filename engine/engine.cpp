@@ -9,6 +9,7 @@
 #include "engine/data/parallel.h"
 #include "engine/evaluate/map_error.h"
 #include "engine/io/mesh_reader.h"
+#include "engine/mesh/decimate.h"
 #include "engine/mesh/intrinsic_delaunay.h"
 #include "engine/mesh/laplacian.h"
 #include "engine/mesh/repair.h"
@@ -94,14 +95,17 @@ SphereBranch parametrize(const TriMesh& mesh, const PreprocessParameters& parame
 
 std::string_view engine_version() { return "2"; }
 
-Surface read_surface(std::span<const std::byte> bytes, std::string_view name, RepairMode mode, const ReadLimits& limits) {
-  return repair(read_mesh(bytes, name, limits), mode);
+Surface read_surface(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options, const ReadLimits& limits) {
+  options.validate();
+  Surface surface = repair(read_mesh(bytes, name, limits), options.repair);
+  if (options.simplify > 0) surface.decimated = decimate(surface.mesh, options.simplify);
+  return surface;
 }
 
 PreprocessedShape preprocess(Surface surface, const PreprocessParameters& parameters, const Progress& progress, int threads) {
   parameters.validate();
   const auto start = Clock::now();
-  const TriMesh mesh = unit_area(surface.mesh);
+  const TriMesh mesh = unit_area(surface.working_mesh());
   PreprocessedShape shape;
   SphereBranch branch;
   Eigenbasis basis;
@@ -132,10 +136,12 @@ PreprocessedShape preprocess(Surface surface, const PreprocessParameters& parame
   const std::vector<Grid> grids = rasterize_signals(shape.sphere, mesh.faces, signatures, parameters.signal_resolution);
   for (std::size_t i = 0; i < grids.size(); ++i)
     shape.signals.push_back({hks_name(parameters.hks_times[i]), grids[i].matrix().cast<float>()});
-  shape.seconds = std::move(branch.seconds);
+  const double simplify_seconds = surface.decimated ? surface.decimated->seconds : 0;
+  if (surface.decimated) shape.seconds.emplace_back("simplify", simplify_seconds);
+  shape.seconds.insert(shape.seconds.end(), branch.seconds.begin(), branch.seconds.end());
   shape.seconds.emplace_back("eigenbasis", eigenbasis_seconds);
   shape.seconds.emplace_back("signals", seconds_since(began));
-  shape.seconds.emplace_back("total", seconds_since(start));
+  shape.seconds.emplace_back("total", simplify_seconds + seconds_since(start));
   shape.surface = std::move(surface);
   shape.engine = std::string(engine_version());
   if (progress.report) progress.report("signals", 1);

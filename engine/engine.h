@@ -19,10 +19,10 @@ namespace spherematch {
 /// Version of the method and its stored artefacts; a shape prepared by another version is prepared again.
 [[nodiscard]] std::string_view engine_version();
 
-/// Reads a mesh file and repairs it (engine/io, engine/mesh). `name` is a file name that helps where the content does not
-/// tell the format; it may be empty.
+/// Reads a mesh file, repairs it and decimates a copy where the options ask for one (engine/io, engine/mesh). `name` is a file name that
+/// helps where the content does not tell the format; it may be empty.
 /// @throws EngineError with every code up to wrong_genus
-[[nodiscard]] Surface read_surface(std::span<const std::byte> bytes, std::string_view name, RepairMode repair,
+[[nodiscard]] Surface read_surface(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options,
                                    const ReadLimits& limits = {});
 
 /// The part of the method that belongs to one shape: conformal parametrisation, Moebius centering, authalic evolution,

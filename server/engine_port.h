@@ -28,7 +28,7 @@ class EnginePort {
  public:
   virtual ~EnginePort() = default;
   [[nodiscard]] virtual std::string version() const = 0;
-  [[nodiscard]] virtual Surface read_surface(std::span<const std::byte> bytes, std::string_view name, RepairMode repair,
+  [[nodiscard]] virtual Surface read_surface(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options,
                                              const ReadLimits& limits) const = 0;
   /// An upload that read_surface() accepted, as its file has it (engine/io/mesh_reader.h).
   [[nodiscard]] virtual PolygonMesh read_mesh(std::span<const std::byte> bytes, std::string_view name) const = 0;

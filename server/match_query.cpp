@@ -1,11 +1,11 @@
 #include "server/match_query.h"
 
 #include <array>
-#include <charconv>
 #include <cstdio>
 #include <optional>
 #include <string>
 
+#include "engine/data/error.h"
 #include "server/problem.h"
 
 namespace spherematch {
@@ -25,27 +25,12 @@ std::size_t index_in(std::string_view name, std::string_view value, std::span<co
   refuse(std::string(name) + ": '" + std::string(value.substr(0, 64)) + "' is not one of " + joined(choices));
 }
 
-std::optional<std::int32_t> vertex_number(std::string_view text) {
-  std::int32_t value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || stop != text.data() + text.size() || value < 0) return std::nullopt;
-  return value;
-}
-
-/// "12:40,77:3"
-std::vector<Hint> parse_hints(std::string_view text) {
-  std::vector<Hint> hints;
-  while (!text.empty()) {
-    const std::string_view pair = text.substr(0, text.find(','));
-    text.remove_prefix(std::min(text.size(), pair.size() + 1));
-    const auto colon = pair.find(':');
-    const auto source = vertex_number(pair.substr(0, colon));
-    const auto target = colon == std::string_view::npos ? std::nullopt : vertex_number(pair.substr(colon + 1));
-    if (!source || !target) refuse("hints: '" + std::string(pair.substr(0, 64)) + "' is not a pair SOURCE:TARGET of vertex numbers");
-    hints.push_back({*source, *target});
+std::vector<Hint> hints_of(const std::string& text) {
+  try {
+    return parse_hints(text);
+  } catch (const EngineError& error) {
+    refuse(error.what());
   }
-  if (hints.size() > MatchParameters::max_hints) refuse("hints: more than " + std::to_string(MatchParameters::max_hints) + " pairs");
-  return hints;
 }
 
 }  // namespace
@@ -61,7 +46,7 @@ MatchQuery match_query_of(const RequestParameters& parameters) {
   query.src = parameters.required("src");
   query.tgt = parameters.required("tgt");
   query.parameters = match_parameters_of(parameters.choice("method", methods), parameters.choice("orientation", orientations));
-  query.parameters.hints = parse_hints(parameters.text("hints").value_or(""));
+  query.parameters.hints = hints_of(parameters.text("hints").value_or(""));
   return query;
 }
 

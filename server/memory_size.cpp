@@ -20,6 +20,10 @@ std::size_t memory_size(const PreprocessedShape& shape) {
   std::size_t bytes = sizeof(PreprocessedShape) + bytes_of(surface.mesh.vertices) + bytes_of(surface.mesh.faces) +
                       bytes_of(surface.uploaded_corners) + surface.surface_vertex.size() * sizeof(surface.surface_vertex[0]) +
                       bytes_of(shape.sphere) + bytes_of(shape.eigenvalues) + bytes_of(shape.eigenvectors);
+  if (surface.decimated) {
+    bytes += bytes_of(surface.decimated->mesh.vertices) + bytes_of(surface.decimated->mesh.faces) +
+             surface.decimated->places.size() * sizeof(SurfacePoint);
+  }
   for (const SignalGrid& signal : shape.signals) bytes += bytes_of(signal.values);
   return bytes;
 }

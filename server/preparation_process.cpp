@@ -171,7 +171,8 @@ PreprocessedShape preprocess_apart(const std::string& program, int threads, Surf
   }
   progress.check();
   if (!shape) throw PreparationLost(worker.how_it_ended());
-  if (shape->sphere.rows() != surface.mesh.vertex_count() || shape->eigenvectors.rows() != surface.mesh.vertex_count()) {
+  const Eigen::Index vertices = surface.working_mesh().vertex_count();
+  if (shape->sphere.rows() != vertices || shape->eigenvectors.rows() != vertices) {
     throw PreparationLost("its process answered with arrays of a wrong size");
   }
   shape->surface = std::move(surface);

@@ -8,9 +8,9 @@ namespace spherematch {
 
 std::string RealEngine::version() const { return std::string(engine_version()); }
 
-Surface RealEngine::read_surface(std::span<const std::byte> bytes, std::string_view name, RepairMode repair,
+Surface RealEngine::read_surface(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options,
                                  const ReadLimits& limits) const {
-  return spherematch::read_surface(bytes, name, repair, limits);
+  return spherematch::read_surface(bytes, name, options, limits);
 }
 
 PolygonMesh RealEngine::read_mesh(std::span<const std::byte> bytes, std::string_view name) const {

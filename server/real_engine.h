@@ -10,7 +10,7 @@ class RealEngine final : public EnginePort {
   explicit RealEngine(int threads) : threads_(threads) {}
 
   [[nodiscard]] std::string version() const override;
-  [[nodiscard]] Surface read_surface(std::span<const std::byte> bytes, std::string_view name, RepairMode repair,
+  [[nodiscard]] Surface read_surface(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options,
                                      const ReadLimits& limits) const override;
   [[nodiscard]] PolygonMesh read_mesh(std::span<const std::byte> bytes, std::string_view name) const override;
   [[nodiscard]] PreprocessedShape preprocess(Surface surface, const Progress& progress) const override;

@@ -54,11 +54,21 @@ std::string form_advice(const HttpRequest& request, std::string_view bytes, Erro
   return {};
 }
 
+ReadOptions read_options(const RequestParameters& parameters) {
+  ReadOptions options;
+  if (parameters.choice("repair", repair_modes) == "none") options.repair = RepairMode::none;
+  if (parameters.text("simplify")) {
+    options.simplify =
+        static_cast<std::int32_t>(parameters.integer("simplify", 0, ReadOptions::least_simplify, std::numeric_limits<std::int32_t>::max()));
+  }
+  return options;
+}
+
 ShapeService::Posted post_upload(const ServerContext& context, const HttpRequest& request, const RequestBody& upload,
-                                 const std::string& name, RepairMode repair) {
+                                 const std::string& name, const ReadOptions& options) {
   try {
     const std::string& file_name = upload.file_name.empty() ? name : upload.file_name;
-    return context.shapes.post(std::as_bytes(std::span(upload.bytes)), name, file_name, repair);
+    return context.shapes.post(std::as_bytes(std::span(upload.bytes)), name, file_name, options);
   } catch (const EngineError& error) {
     const std::string advice = form_advice(request, upload.bytes, error.code());
     if (advice.empty()) throw;
@@ -67,13 +77,13 @@ ShapeService::Posted post_upload(const ServerContext& context, const HttpRequest
 }
 
 HttpResponse post_shape(const ServerContext& context, HttpRequest& request) {
-  const RequestParameters parameters(request, {"name", "repair", "wait"});
+  const RequestParameters parameters(request, {"name", "repair", "simplify", "wait"});
   const std::string name = shape_name(parameters, request.body.file_name);
-  const RepairMode repair = parameters.choice("repair", repair_modes) == "fill" ? RepairMode::fill : RepairMode::none;
+  const ReadOptions options = read_options(parameters);
   const auto wait = parameters.seconds("wait", 0, max_wait_seconds);
 
   auto upload = std::make_unique<RequestBody>(std::exchange(request.body, {}));
-  const auto [id, known] = post_upload(context, request, *upload, name, repair);
+  const auto [id, known] = post_upload(context, request, *upload, name, options);
   upload.reset();  // the wait may be long, and others may need the memory
   context.shapes.wait_until_finished(id, ShapeService::Clock::now() + wait);
 
@@ -109,21 +119,6 @@ HttpResponse delete_shape(const ServerContext& context, const HttpRequest& reque
   context.shapes.remove(request.id);
   context.match_service.forget(request.id);
   return {.status = 204, .content_type = {}, .body = {}, .headers = {}};
-}
-
-/// The sphere position of each uploaded vertex, not-a-number for a dropped one.
-Points uploaded_sphere(const PreprocessedShape& shape) {
-  const auto& places = shape.surface.surface_vertex;
-  Points points(static_cast<Eigen::Index>(places.size()), 3);
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    const std::int32_t place = places[static_cast<std::size_t>(i)];
-    if (place < 0) {
-      points.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
-    } else {
-      points.row(i) = shape.sphere.row(place);
-    }
-  }
-  return points;
 }
 
 HttpResponse get_sphere(const ServerContext& context, const HttpRequest& request) {

@@ -6,7 +6,7 @@ namespace {
 
 api::Repair repair_of(const ShapeRecord& record) {
   const RepairReport& report = record.repair;
-  return {.mode = record.options == "repair=none" ? "none" : "fill",
+  return {.mode = record.options.starts_with("repair=none") ? "none" : "fill",
           .filled_loops = report.filled_loops,
           .added_vertices = report.added_vertices,
           .added_faces = report.added_faces,
@@ -50,6 +50,7 @@ api::Shape shape_of(const ShapeRecord& record, const std::optional<JobStatus>& j
   shape.faces = record.faces;
   shape.sha256 = record.sha256;
   shape.repair = repair_of(record);
+  shape.simplified = record.simplified;
   shape.created_at = record.created_at;
   if (record.state == ShapeState::ready) {
     shape.progress = 1;

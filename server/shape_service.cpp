@@ -93,11 +93,11 @@ ShapeService::ShapeService(ShapeStore& store, const EnginePort& engine, const Sh
 }
 
 ShapeService::Posted ShapeService::post(std::span<const std::byte> bytes, const std::string& name, std::string_view file_name,
-                                        RepairMode repair) {
-  const ContentId content = content_id(bytes, upload_options(repair));
+                                        const ReadOptions& options) {
+  const ContentId content = content_id(bytes, upload_options(options));
   if (const auto known = store_.find(content.id)) return post_known(*known);
   require_room();  // before the mesh is read and stored: a refused upload leaves nothing behind
-  const Surface surface = engine_.read_surface(bytes, file_name, repair, settings_.read_limits);
+  const Surface surface = engine_.read_surface(bytes, file_name, options, settings_.read_limits);
   const InsertOutcome outcome = store_.insert(content, name, bytes, surface);
   jobs_.submit(content.id, /*beyond_limit=*/true);
   return {content.id, outcome == InsertOutcome::known};

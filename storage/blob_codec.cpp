@@ -50,6 +50,37 @@ constexpr std::array report_fields{
     &RepairReport::dropped_vertices, &RepairReport::welded_vertices, &RepairReport::split_vertices,
     &RepairReport::flipped_faces,    &RepairReport::removed_faces,   &RepairReport::dropped_components,
 };
+/// What a decimated surface has after all else. Other surfaces end before it, as all did in the first releases.
+void write_decimated(ByteWriter& writer, const DecimatedMesh& decimated) {
+  writer.number(static_cast<std::uint32_t>(decimated.mesh.vertex_count()));
+  writer.number(static_cast<std::uint32_t>(decimated.mesh.face_count()));
+  writer.number(decimated.seconds);
+  write_matrix(writer, decimated.mesh.vertices);
+  write_matrix(writer, decimated.mesh.faces);
+  for (const SurfacePoint& place : decimated.places) {
+    writer.number(place.face);
+    writer.array(place.weights.data(), place.weights.size());
+  }
+}
+
+DecimatedMesh read_decimated(ByteReader& reader, std::uint32_t places) {
+  const auto vertices = reader.number<std::uint32_t>();
+  const auto faces = reader.number<std::uint32_t>();
+  DecimatedMesh decimated;
+  decimated.seconds = reader.number<double>();
+  decimated.mesh.vertices = read_matrix<Points>(reader, vertices, 3);
+  decimated.mesh.faces = read_matrix<Triangles>(reader, faces, 3);
+  check_indices(decimated.mesh.faces.data(), std::size_t{faces} * 3, 0, vertices);
+  reader.require<double>(std::uint64_t{places} * 3);
+  decimated.places.resize(places);
+  for (SurfacePoint& place : decimated.places) {
+    place.face = reader.number<std::int32_t>();
+    reader.array(place.weights.data(), place.weights.size());
+    check_indices(&place.face, 1, 0, faces);
+  }
+  return decimated;
+}
+
 static_assert(sizeof(RepairReport) == report_fields.size() * sizeof(std::int32_t), "a new field needs a new codec version");
 
 }  // namespace
@@ -83,6 +114,7 @@ Blob encode_surface(const Surface& surface) {
   write_matrix(writer, mesh.faces);
   write_matrix(writer, surface.uploaded_corners);
   writer.array(surface.surface_vertex.data(), surface.surface_vertex.size());
+  if (surface.decimated) write_decimated(writer, *surface.decimated);
   seal_blob(blob, BlobKind::surface, BlobCompression::where_it_helps);
   return blob;
 }
@@ -102,6 +134,7 @@ Surface decode_surface(BlobView blob) {
   reader.require<std::int32_t>(uploaded);
   surface.surface_vertex.resize(uploaded);
   reader.array(surface.surface_vertex.data(), uploaded);
+  if (!reader.at_end()) surface.decimated = read_decimated(reader, vertices);
   reader.finish();
   check_indices(surface.mesh.faces.data(), std::size_t{faces} * 3, 0, vertices);
   check_indices(surface.uploaded_corners.data(), std::size_t{faces} * 3, -1, uploaded);

@@ -99,8 +99,10 @@ class ByteReader {
     if (count > bytes_.size() / sizeof(T)) throw StorageError(StorageErrorCode::corrupt_blob, "a stored array is cut short");
   }
 
+  [[nodiscard]] bool at_end() const { return bytes_.empty(); }
+
   void finish() const {
-    if (!bytes_.empty()) throw StorageError(StorageErrorCode::corrupt_blob, "a stored blob is longer than its contents");
+    if (!at_end()) throw StorageError(StorageErrorCode::corrupt_blob, "a stored blob is longer than its contents");
   }
 
  private:

@@ -105,7 +105,9 @@ ALTER TABLE shapes ADD COLUMN started_at TEXT;
 ALTER TABLE shapes ADD COLUMN finished_at TEXT;
 )sql";
 
-constexpr std::array steps{first_schema, count_attempts, matches_and_jobs};
+constexpr const char* note_simplified = "ALTER TABLE shapes ADD COLUMN simplified INTEGER;";
+
+constexpr std::array steps{first_schema, count_attempts, matches_and_jobs, note_simplified};
 
 int pragma(SQLite::Database& database, const char* name) { return database.execAndGet(std::string("PRAGMA ") + name).getInt(); }
 

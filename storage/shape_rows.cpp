@@ -14,7 +14,7 @@ namespace {
 constexpr const char* select_shape =
     "SELECT sequence, id, name, sha256, options, state, created_at, engine, error_code, error_detail, sphere_flipped, "
     "solid_angle_defect, area_distortion, vertices, faces, filled_loops, added_vertices, added_faces, dropped_vertices, "
-    "welded_vertices, split_vertices, flipped_faces, removed_faces, dropped_components FROM shapes ";
+    "welded_vertices, split_vertices, flipped_faces, removed_faces, dropped_components, simplified FROM shapes ";
 constexpr int first_repair_column = 15;
 
 constexpr std::array repair_fields{
@@ -61,6 +61,7 @@ ShapeRow read_row(SQLite::Database& database, SQLite::Statement& query) {
   record.faces = query.getColumn(14).getInt();
   int column = first_repair_column;
   for (const auto field : repair_fields) record.repair.*field = query.getColumn(column++).getInt();
+  if (!query.getColumn(column).isNull()) record.simplified = query.getColumn(column).getInt();
   record.seconds = read_seconds(database, row.sequence);
   return row;
 }
@@ -69,6 +70,11 @@ void bind_surface(SQLite::Statement& statement, int first, const Surface& surfac
   statement.bind(first++, surface.uploaded_vertices());
   statement.bind(first++, surface.uploaded_faces);
   for (const auto field : repair_fields) statement.bind(first++, surface.report.*field);
+  if (surface.decimated) {
+    statement.bind(first, static_cast<std::int32_t>(surface.decimated->mesh.vertex_count()));
+  } else {
+    statement.bind(first);  // NULL
+  }
 }
 
 void forget_seconds(SQLite::Database& database, Sequence shape) {
@@ -113,8 +119,8 @@ Sequence insert_row(SQLite::Database& database, const ContentId& content, std::s
   SQLite::Statement insert(database,
                            "INSERT INTO shapes (id, name, sha256, options, state, created_at, vertices, faces, filled_loops, "
                            "added_vertices, added_faces, dropped_vertices, welded_vertices, split_vertices, flipped_faces, "
-                           "removed_faces, dropped_components) VALUES "
-                           "(?, ?, ?, ?, 'queued', strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                           "removed_faces, dropped_components, simplified) VALUES "
+                           "(?, ?, ?, ?, 'queued', strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(1, content.id);
   insert.bind(2, std::string(name));
   insert.bind(3, content.sha256);
@@ -128,9 +134,9 @@ void update_surface(SQLite::Database& database, Sequence shape, const Surface& s
   SQLite::Statement update(database,
                            "UPDATE shapes SET vertices = ?, faces = ?, filled_loops = ?, added_vertices = ?, added_faces = ?, "
                            "dropped_vertices = ?, welded_vertices = ?, split_vertices = ?, flipped_faces = ?, removed_faces = ?, "
-                           "dropped_components = ? WHERE sequence = ?");
+                           "dropped_components = ?, simplified = ? WHERE sequence = ?");
   bind_surface(update, 1, surface);
-  update.bind(12, shape);
+  update.bind(13, shape);
   update.exec();
 }
 

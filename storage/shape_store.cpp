@@ -228,7 +228,7 @@ std::shared_ptr<const PreprocessedShape> ShapeStore::load_prepared(std::string_v
     shape->sphere = load(database, row.sequence, BlobKind::sphere, decode_sphere);
     shape->signals = load(database, row.sequence, BlobKind::signals, decode_signals);
     StoredEigenbasis basis = load(database, row.sequence, BlobKind::eigenbasis, decode_eigenbasis);
-    const Eigen::Index vertices = shape->surface.mesh.vertex_count();
+    const Eigen::Index vertices = shape->surface.working_mesh().vertex_count();
     if (shape->sphere.rows() != vertices || basis.eigenvectors.rows() != vertices ||
         basis.eigenvectors.cols() != basis.eigenvalues.size()) {
       throw StorageError(StorageErrorCode::corrupt_blob, "the parts of shape \"" + row.record.id + "\" differ in size");

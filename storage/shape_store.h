@@ -40,12 +40,13 @@ struct ShapeRecord {
   std::int32_t vertices = 0;  ///< of the upload
   std::int32_t faces = 0;     ///< polygons of the upload
   RepairReport repair;
-  std::optional<SphereQuality> sphere;  ///< once ready
-  StageSeconds seconds;                 ///< once ready
-  std::string engine;                   ///< once ready: the engine version that prepared it
-  std::string error_code;               ///< once failed: a stable code
-  std::string error_detail;             ///< once failed: a sentence
-  std::string created_at;               ///< RFC 3339, UTC, of the first upload
+  std::optional<std::int32_t> simplified;  ///< vertices of the surface's decimated copy, if it has one
+  std::optional<SphereQuality> sphere;     ///< once ready
+  StageSeconds seconds;                    ///< once ready
+  std::string engine;                      ///< once ready: the engine version that prepared it
+  std::string error_code;                  ///< once failed: a stable code
+  std::string error_detail;                ///< once failed: a sentence
+  std::string created_at;                  ///< RFC 3339, UTC, of the first upload
 };
 
 enum class InsertOutcome {

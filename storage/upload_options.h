@@ -8,6 +8,10 @@
 namespace spherematch {
 
 /// Server and command line use the same text, so that they find each other's shapes. It is stored: never change it.
-[[nodiscard]] inline std::string upload_options(RepairMode repair) { return repair == RepairMode::fill ? "repair=fill" : "repair=none"; }
+[[nodiscard]] inline std::string upload_options(const ReadOptions& options) {
+  std::string text = options.repair == RepairMode::fill ? "repair=fill" : "repair=none";
+  if (options.simplify > 0) text += ";simplify=" + std::to_string(options.simplify);
+  return text;
+}
 
 }  // namespace spherematch

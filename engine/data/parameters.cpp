@@ -1,6 +1,9 @@
 #include "engine/data/parameters.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "engine/data/error.h"
@@ -13,6 +16,14 @@ void require(bool holds, const char* field, const char* reason) {
 }
 
 bool positive(double x) { return std::isfinite(x) && x > 0; }
+
+/// A whole text that is a number from 0, as vertices are numbered.
+std::optional<std::int32_t> vertex_number(std::string_view text) {
+  std::int32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || text.front() == '-') return std::nullopt;
+  return value;
+}
 
 }  // namespace
 
@@ -67,6 +78,27 @@ MatchParameters MatchParameters::paper() {
   parameters.fine_candidates = parameters.max_candidates;
   parameters.paper_selection = true;
   return parameters;
+}
+
+std::vector<Hint> parse_hints(std::string_view text) {
+  std::vector<Hint> hints;
+  for (bool more = !text.empty(); more;) {
+    const std::size_t comma = text.find(',');
+    const std::string_view pair = text.substr(0, comma);
+    more = comma != std::string_view::npos;
+    if (more) text.remove_prefix(comma + 1);
+    const std::size_t colon = std::min(pair.find(':'), pair.size());
+    const auto source = vertex_number(pair.substr(0, colon)), target = vertex_number(pair.substr(std::min(colon + 1, pair.size())));
+    if (!source || !target) {
+      throw EngineError(ErrorCode::invalid_parameter, "hints: '" + std::string(pair.substr(0, 40)) +
+                                                          "' is not a pair of vertex numbers like 12:40; pairs are separated by commas");
+    }
+    if (hints.size() == MatchParameters::max_hints) {
+      throw EngineError(ErrorCode::invalid_parameter, "hints: at most " + std::to_string(MatchParameters::max_hints) + " pairs are taken");
+    }
+    hints.push_back({*source, *target});
+  }
+  return hints;
 }
 
 }  // namespace spherematch

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 namespace spherematch {
@@ -50,6 +51,10 @@ struct Hint {
   std::int32_t target = 0;
   bool operator==(const Hint&) const = default;
 };
+
+/// Of "12:40,77:3": source and target of each hint, numbered from 0. Empty for an empty text.
+/// @throws EngineError(invalid_parameter) whose text begins with "hints: "
+[[nodiscard]] std::vector<Hint> parse_hints(std::string_view text);
 
 struct MatchParameters {
   static constexpr std::size_t max_hints = 64;

@@ -31,7 +31,7 @@ struct SignalGrid {
 
 struct PreprocessedShape {
   Surface surface;
-  Points sphere;  ///< (V, 3) unit vectors, one per vertex of surface.mesh; no flipped triangle
+  Points sphere;  ///< (V, 3) unit vectors, one per vertex of surface.working_mesh(); no flipped triangle
   SphereQuality sphere_quality;
   Eigen::VectorXd eigenvalues;   ///< (k), ascending, of the surface scaled to unit area
   Eigen::MatrixXf eigenvectors;  ///< (V, k), unit mass norm on the unit-area surface
@@ -39,5 +39,11 @@ struct PreprocessedShape {
   StageSeconds seconds;  ///< "conformal", "authalic", "eigenbasis", ..., "total"
   std::string engine;    ///< engine_version() that made it
 };
+
+/// From positions of the vertices of surface.working_mesh() on the sphere to those of the vertices of surface.mesh.
+[[nodiscard]] Points spread_over(const Surface& surface, const Points& working_sphere);
+
+/// The position of each uploaded vertex on the sphere, (n, 3); not-a-number for a dropped one.
+[[nodiscard]] Points uploaded_sphere(const PreprocessedShape& shape);
 
 }  // namespace spherematch

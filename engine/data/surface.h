@@ -1,7 +1,9 @@
 // An uploaded mesh after repair: the closed genus-zero surface that the method works on, and how it speaks of the upload.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/data/tri_mesh.h"
@@ -9,6 +11,18 @@
 namespace spherematch {
 
 enum class RepairMode { none, fill };
+
+/// How an upload becomes a surface.
+struct ReadOptions {
+  static constexpr std::int32_t least_simplify = 500;
+
+  RepairMode repair = RepairMode::fill;
+  std::int32_t simplify = 0;  ///< prepare a copy of this many vertices where the surface has more; 0 for never
+
+  bool operator==(const ReadOptions&) const = default;
+  /// @throws EngineError(invalid_parameter)
+  void validate() const;
+};
 
 /// What repair did. All zero when the upload was already one closed, oriented, manifold sphere.
 struct RepairReport {
@@ -25,6 +39,19 @@ struct RepairReport {
   bool operator==(const RepairReport&) const = default;
 };
 
+/// A point on a triangle mesh.
+struct SurfacePoint {
+  std::int32_t face = -1;
+  std::array<double, 3> weights{};  ///< barycentric in the face's corners, non-negative, sum 1
+};
+
+/// A coarser mesh that takes the place of a surface's own; the invariants of Surface hold for it too.
+struct DecimatedMesh {
+  TriMesh mesh;
+  std::vector<SurfacePoint> places;  ///< of each vertex of Surface::mesh: a point of this mesh
+  double seconds = 0;                ///< wall-clock time that it took
+};
+
 /// Invariants: `mesh` is closed, connected, manifold, consistently oriented with positive signed volume and of Euler
 /// characteristic 2; every coordinate is finite; the total area is positive. Coordinates are those of the upload.
 struct Surface {
@@ -34,7 +61,10 @@ struct Surface {
   std::vector<std::int32_t> surface_vertex;  ///< per uploaded vertex: a vertex of `mesh` at its place, or -1 when dropped
   std::int32_t uploaded_faces = 0;           ///< polygons in the upload
   RepairReport report;
+  std::optional<DecimatedMesh> decimated;  ///< where the method shall work on fewer vertices (engine/mesh/decimate.h)
 
+  /// What parametrisation, eigenbasis and registration work on.
+  [[nodiscard]] const TriMesh& working_mesh() const { return decimated ? decimated->mesh : mesh; }
   [[nodiscard]] std::int32_t uploaded_vertices() const { return static_cast<std::int32_t>(surface_vertex.size()); }
 };
 

@@ -29,7 +29,8 @@ double nearest_on_segment(const Eigen::Vector3d& a, const Eigen::Vector3d& b, co
   return length > 0 ? std::clamp((p - a).dot(b - a) / length, 0.0, 1.0) : 0.0;
 }
 
-/// Weights of the point of the triangle that is nearest to p: the foot on its plane when inside, else the best of its edges.
+}  // namespace
+
 std::array<double, 3> nearest_weights(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& p) {
   const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
   const double area = normal.squaredNorm();
@@ -59,8 +60,6 @@ std::array<double, 3> nearest_weights(const std::array<Eigen::Vector3d, 3>& corn
   }
   return weights;
 }
-
-}  // namespace
 
 struct ClosestPoint::Tree {
   explicit Tree(const Surface& surface) {

@@ -10,10 +10,8 @@
 
 namespace spherematch {
 
-struct SurfacePoint {
-  std::int32_t face = -1;           ///< face of Surface::mesh
-  std::array<double, 3> weights{};  ///< barycentric in its corners, non-negative, sum 1
-};
+/// Weights of the point of the triangle that is nearest to `point`: the foot on its plane when inside, else the best of its edges.
+[[nodiscard]] std::array<double, 3> nearest_weights(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& point);
 
 /// Searches the faces whose uploaded corners are all known. Keeps its own copy of what it needs. Queries are const and
 /// thread-safe; the same query gives the same answer. Building is O(F log F), a query about O(log F).

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -21,7 +22,10 @@ VertexMean place(const Surface& surface, std::int32_t vertex, const char* side) 
     refuse("does not exist; it has " + std::to_string(surface.uploaded_vertices()) + " vertices, numbered from 0");
   const std::int32_t place = surface.surface_vertex[static_cast<std::size_t>(vertex)];
   if (place < 0) refuse("was dropped when the mesh was repaired");
-  return {{place, place, place}, {1, 0, 0}};
+  if (!surface.decimated) return {{place, place, place}, {1, 0, 0}};
+  const auto& [face, weights] = surface.decimated->places[static_cast<std::size_t>(place)];
+  const auto corners = surface.decimated->mesh.faces.row(face);
+  return {{corners[0], corners[1], corners[2]}, {weights[0], weights[1], weights[2]}};
 }
 
 /// Unit vectors, one row per hint.
@@ -103,7 +107,7 @@ void pull_together(Points& source_sphere, Points& target_sphere, const std::vect
     Eigen::Index used = 0;
     for (Eigen::Index i = 0; i < from.rows(); ++i) {
       const double angle = angle_between(from.row(i), to.row(i));
-      if (!(angle < 0.5 * EIGEN_PI)) continue;
+      if (!(angle < 0.5 * std::numbers::pi)) continue;
       const Eigen::Vector3d chord = (to.row(i) - from.row(i)).transpose();
       const double size = chord.norm();
       centers.row(used) = (from.row(i) + to.row(i)).normalized();

@@ -105,10 +105,28 @@ MatchQuality measure_map(const Registration& best, const std::vector<CandidateSu
   };
 }
 
-/// The map from target to source; of locations in the faces of the source itself.
-Correspondence compose_reverse(const Surface& source, const Surface& target, const Attempt& best) {
-  std::vector<Location> back = best.best().back.empty() ? locate_back(best.best()) : best.best().back;
-  if (best.mirrored) std::transform(back.begin(), back.end(), back.begin(), mirrored_location);
+// Where a surface is decimated, the registration is of the coarser copies. Then the surfaces themselves are spread over the same
+// registered spheres, and the vertices of one are located in the faces of the other.
+
+bool is_coarse(const Surface& source, const Surface& target) { return source.decimated || target.decimated; }
+
+Correspondence forward_map(const Surface& source, const Surface& target, const Registration& best) {
+  if (!is_coarse(source, target)) return compose(source, target, best.locations);
+  const Points from = spread_over(source, best.source.sphere), to = spread_over(target, best.target.sphere);
+  return compose(source, target, locate_all(from, PointLocation(to, target.mesh.faces)));
+}
+
+Correspondence reverse_map(const Surface& source, const Surface& target, const Attempt& attempt) {
+  const Registration& best = attempt.best();
+  std::vector<Location> back = best.back;
+  if (is_coarse(source, target)) {
+    const Points from = spread_over(target, best.target.sphere), to = spread_over(source, best.source.sphere);
+    const Triangles faces = attempt.mirrored ? mirrored_faces(source.mesh.faces) : source.mesh.faces;
+    back = locate_all(from, PointLocation(to, faces));
+  } else if (back.empty()) {
+    back = locate_back(best);
+  }
+  if (attempt.mirrored) std::transform(back.begin(), back.end(), back.begin(), mirrored_location);
   return compose(target, source, back);
 }
 
@@ -146,8 +164,8 @@ MatchResult register_pair(const PreprocessedShape& source_shape, const Preproces
                                           [](const Attempt& a, const Attempt& b) { return a.best().score < b.best().score; });
   result.reversed = best.mirrored;
   result.candidates = summarize_all(attempts, best);
-  result.map = compose(source_shape.surface, target_shape.surface, best.best().locations);
-  if (parameters.both) result.reverse = compose_reverse(source_shape.surface, target_shape.surface, best);
+  result.map = forward_map(source_shape.surface, target_shape.surface, best.best());
+  if (parameters.both) result.reverse = reverse_map(source_shape.surface, target_shape.surface, best);
   result.quality = measure_map(best.best(), result.candidates);
   result.seconds.emplace_back("correspondence", watch.lap());
   result.seconds.emplace_back("total", total.lap());

@@ -15,14 +15,15 @@ SideSignals::SideSignals(const PreprocessedShape& shape, const MatchParameters& 
     : flow(heat_kernel_signatures(shape.eigenvalues, shape.eigenvectors, parameters.flow_times)),
       selection(parameters.paper_selection ? heat_kernel_signatures(shape.eigenvalues, shape.eigenvectors, {0.01})
                                            : selection_signals(shape)),
-      weights(vertex_areas(shape.surface.mesh.vertices, shape.surface.mesh.faces)) {
+      weights(vertex_areas(shape.surface.working_mesh().vertices, shape.surface.working_mesh().faces)) {
   weights /= weights.sum();
 }
 
 Side::Side(const PreprocessedShape& shape, const SideSignals& shape_signals, bool as_mirror_image)
     : mirrored(as_mirror_image),
       signals(shape_signals),
-      mesh{shape.surface.mesh.vertices, mirrored ? mirrored_faces(shape.surface.mesh.faces) : shape.surface.mesh.faces},
+      mesh{shape.surface.working_mesh().vertices,
+           mirrored ? mirrored_faces(shape.surface.working_mesh().faces) : shape.surface.working_mesh().faces},
       sphere(mirrored ? mirrored_points(shape.sphere) : shape.sphere),
       repair(mesh) {}
 

@@ -30,6 +30,7 @@ Shape sample_shape() {
   shape.faces = 196;
   shape.sha256 = std::string(64, 'f');
   shape.repair = {"none", 1, 2, 3, 4, 5, 6, 7, 8, 9};
+  shape.simplified = 5000;
   shape.sphere = Sphere{0, 1e-13, 0.25};
   shape.seconds = {{"conformal", 1.5}, {"authalic", 0.1}, {"total", 1.6}};
   shape.engine = "1.0";

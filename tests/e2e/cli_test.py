@@ -63,6 +63,41 @@ class CliTest(support.TestCase):
         with open(self.place + '/map.npz', 'rb') as file:
             self.assertEqual(file.read(), server.get('/match', src=known.json()['id'], tgt=b, format='npz').body)
 
+    def test_mirror_image_and_hints(self):
+        vertices, faces = support.bumpy(2, 0.0)
+        with open(self.place + '/mirrored.off', 'wb') as file:
+            file.write(support.off(([(-x, y, z) for x, y, z in vertices], [f[::-1] for f in faces])))
+        done = self.run_cli('match', 'a.off', 'mirrored.off', '--store', self.store, '--orientation', 'any', '--hints', '0:0,40:40,90:90',
+                            '-o', 'map.txt')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("match of the source's mirror image", done.stdout)
+        with open(self.place + '/map.txt') as file:
+            found = [int(line) for line in file]
+        self.assertGreater(sum(v == i for i, v in enumerate(found)), 120)
+        for hints, words in (('0', 'pair of vertex numbers'), ('1:2,3', 'pair of vertex numbers'), (','.join(['1:1'] * 65), 'at most 64')):
+            wrong = self.run_cli('match', 'a.off', 'b.off', '--store', self.store, '--hints', hints)
+            self.assertEqual(wrong.returncode, 2, hints)
+            self.assertIn(words, wrong.stderr)
+        outside = self.run_cli('match', 'a.off', 'b.off', '--store', self.store, '--hints', '162:0')
+        self.assertEqual(outside.returncode, 3)
+        self.assertIn('vertex 162 of the source does not exist', outside.stderr)
+
+    def test_simplify(self):
+        with open(self.place + '/fine.off', 'wb') as file:
+            file.write(support.off(support.bumpy(4, 0.0)))
+        done = self.run_cli('prepare', 'fine.off', '--store', self.store, '--simplify', '600')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('fine.off: 2562 vertices', done.stdout)
+        self.assertIn('simplified to 600 vertices', done.stdout)
+        self.assertRegex(done.stdout, r'\n  simplify +\d')
+        done = self.run_cli('match', 'fine.off', 'a.off', '--store', self.store, '--simplify', '600', '-o', 'map.npz')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('fine.off: 2562 vertices, already in the store', done.stdout)
+        with open(self.place + '/map.npz', 'rb') as file:
+            vertex = support.read_npz(file.read())['vertex'][1]
+        self.assertEqual(len(vertex), 2562)
+        self.assertEqual(self.run_cli('prepare', 'a.off', '--store', self.store, '--simplify', '499').returncode, 2)
+
     def test_evaluate(self):
         for target in ('a', 'b'):
             self.assertEqual(self.run_cli('match', 'a.off', target + '.off', '--store', self.store, '-o', target + '.npz').returncode, 0)

@@ -47,6 +47,22 @@ class ServerTest(support.TestCase):
         self.assertEqual((sent.status, sent.json()), (200, shape))
         self.assertEqual(self.server.get('/shapes/' + shape['id']).json(), shape)
 
+    def test_simplify(self):
+        body = support.off(support.bumpy(4))
+        whole = self.server.post(body, wait=60).json()
+        coarse = self.server.post(body, wait=60, simplify=600).json()
+        self.assertNotEqual(whole['id'], coarse['id'])
+        self.assertEqual((whole['simplified'], coarse['simplified']), (None, 600))
+        self.assertEqual((coarse['state'], coarse['vertices'], coarse['sphere']['flipped']), ('ready', 2562, 0))
+        self.assertIn('simplify', coarse['seconds'])
+        self.assertNotIn('simplify', whole['seconds'])
+        sphere = support.read_npy(self.server.get(f"/shapes/{coarse['id']}/sphere").body)[1]
+        self.assertEqual((len(sphere), len(sphere[0])), (2562, 3))
+        found = support.read_npz(self.server.get('/match', src=coarse['id'], tgt=whole['id'], format='npz').body)
+        # Of 2562 vertices most find themselves, though a quarter of them were matched.
+        self.assertGreater(sum(v == i for i, v in enumerate(found['vertex'][1])), 1200)
+        self.assert_problem(self.server.post(body, simplify=499), 400, 'invalid-parameter')
+
     def test_concurrent_uploads_compute_once(self):
         body = support.off(support.bumpy(2, 0.7))
         responses = []
@@ -139,7 +155,7 @@ class ServerTest(support.TestCase):
         self.assert_problem(request('POST', '/match', body=b'x'), 405, 'method-not-allowed')
         self.assert_problem(self.server.post(A, wait=61), 400, 'invalid-parameter')
         unknown = self.assert_problem(self.server.post(A, colour='red'), 400, 'invalid-parameter')
-        self.assertIn('name, repair, wait', unknown['detail'])
+        self.assertIn('name, repair, simplify, wait', unknown['detail'])
         self.assert_problem(self.server.get('/shapes', cursor='bogus'), 400, 'invalid-parameter')
 
     def test_bodies_that_are_refused(self):

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <initializer_list>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -228,6 +229,19 @@ TEST_F(SymmetricBody, HintedMatchesAreTheSameAtAnyNumberOfThreads) {
 
 TEST_F(SymmetricBody, AHintOutsideOfTheUploadIsRefused) {
   test::expect_refusal(ErrorCode::invalid_parameter, [&] { (void)match(shape_, shape_, with({{0, 642}})); });
+}
+
+TEST(Hints, AreReadFromText) {
+  EXPECT_EQ(parse_hints(""), std::vector<Hint>{});
+  EXPECT_EQ(parse_hints("12:40,77:3"), (std::vector<Hint>{{12, 40}, {77, 3}}));
+  EXPECT_EQ(parse_hints("0:2147483647"), (std::vector<Hint>{{0, 2147483647}}));
+  for (const char* wrong : {",", "1:2,", ",1:2", "1:2,,3:4", "1", ":", "1:", ":2", "1:2:3", "-1:2", "1:-2", "+1:2", " 1:2", "1:2 ", "1.0:2",
+                            "1:2147483648", "a:b", "1;2"})
+    test::expect_refusal(ErrorCode::invalid_parameter, [wrong] { (void)parse_hints(wrong); });
+  std::string many = "1:1";
+  for (int i = 1; i < 64; ++i) many += ",1:1";
+  EXPECT_EQ(parse_hints(many).size(), 64U);
+  test::expect_refusal(ErrorCode::invalid_parameter, [&] { (void)parse_hints(many + ",1:1"); });
 }
 
 TEST(Hints, PullTogetherWhatRotationAndFlowDoNot) {

@@ -34,6 +34,18 @@ TEST_F(RoutesShapes, RepairIsPartOfTheIdentity) {
   EXPECT_EQ(shape(none).repair.mode, "none");
 }
 
+TEST_F(RoutesShapes, SimplifyIsPartOfTheIdentity) {
+  const api::Shape whole = shape(post("sphere 1", {{"wait", "10"}}));
+  EXPECT_EQ(whole.simplified, std::nullopt);
+  const HttpResponse response = post("sphere 1", {{"simplify", "500"}, {"wait", "10"}});
+  EXPECT_EQ(response.status, 201);
+  EXPECT_NE(shape(response).id, whole.id);
+  EXPECT_EQ(shape(response).simplified, 4);
+  EXPECT_NE(shape(post("sphere 1", {{"simplify", "501"}})).id, shape(response).id);
+  for (const char* wrong : {"499", "0", "-1", "", "many", "3000000000"})
+    EXPECT_EQ(problem_code(post("sphere 1", {{"simplify", wrong}})), api::Code::invalid_parameter) << wrong;
+}
+
 TEST_F(RoutesShapes, WithoutWaitingItIsAcceptedAndShowsItsProgress) {
   engine.hold_preparation = true;
   const HttpResponse response = post("sphere 1", {});

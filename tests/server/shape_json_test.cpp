@@ -35,6 +35,15 @@ TEST(ShapeJson, AReadyShapeIsComplete) {
   EXPECT_EQ(shape.error, std::nullopt);
 }
 
+TEST(ShapeJson, TellsOfADecimatedCopy) {
+  ShapeRecord ready = record(ShapeState::ready);
+  EXPECT_EQ(shape_of(ready, std::nullopt).simplified, std::nullopt);
+  ready.options = std::string("repair=none;simplify=5000");
+  ready.simplified = 4999;
+  EXPECT_EQ(shape_of(ready, std::nullopt).simplified, 4999);
+  EXPECT_EQ(shape_of(ready, std::nullopt).repair.mode, "none");
+}
+
 TEST(ShapeJson, AFailedShapeHasItsProblem) {
   ShapeRecord failed = record(ShapeState::failed);
   failed.error_code = std::string("parametrization-failed");

@@ -27,7 +27,7 @@ class StubEngine final : public EnginePort {
 
   [[nodiscard]] std::string version() const override { return version_text; }
 
-  [[nodiscard]] Surface read_surface(std::span<const std::byte> bytes, std::string_view, RepairMode repair,
+  [[nodiscard]] Surface read_surface(std::span<const std::byte> bytes, std::string_view, const ReadOptions& options,
                                      const ReadLimits& limits) const override {
     ++const_cast<StubEngine*>(this)->reads;
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -36,11 +36,11 @@ class StubEngine final : public EnginePort {
     }
     if (text.starts_with("crowd")) throw EngineError(ErrorCode::too_many_vertices, "more than " + std::to_string(limits.max_vertices));
     if (!text.starts_with("sphere")) throw EngineError(ErrorCode::unsupported_format, "no reader recognises the bytes");
-    return tetrahedron(repair, text.find("hopeless") != std::string_view::npos);
+    return tetrahedron(options, text.find("hopeless") != std::string_view::npos);
   }
 
   [[nodiscard]] PolygonMesh read_mesh(std::span<const std::byte> bytes, std::string_view name) const override {
-    const Surface surface = read_surface(bytes, name, RepairMode::fill, {});
+    const Surface surface = read_surface(bytes, name, {}, {});
     PolygonMesh mesh;
     mesh.vertices.setZero(surface.uploaded_vertices(), 3);
     mesh.vertices.topRows(surface.mesh.vertex_count()) = surface.mesh.vertices;
@@ -108,7 +108,7 @@ class StubEngine final : public EnginePort {
 
  private:
   /// Four uploaded vertices on the surface and a fifth that was dropped.
-  static Surface tetrahedron(RepairMode repair, bool hopeless) {
+  static Surface tetrahedron(const ReadOptions& options, bool hopeless) {
     Surface surface;
     surface.mesh.vertices.resize(4, 3);
     surface.mesh.vertices << (hopeless ? 9.0 : 1.0), 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1;
@@ -117,7 +117,8 @@ class StubEngine final : public EnginePort {
     surface.uploaded_corners = surface.mesh.faces;
     surface.surface_vertex = {0, 1, 2, 3, -1};
     surface.uploaded_faces = 4;
-    surface.report.dropped_vertices = repair == RepairMode::fill ? 1 : 0;
+    surface.report.dropped_vertices = options.repair == RepairMode::fill ? 1 : 0;
+    if (options.simplify > 0) surface.decimated = {surface.mesh, {{0, {1, 0, 0}}, {0, {0, 1, 0}}, {0, {0, 0, 1}}, {1, {0, 1, 0}}}, 0.5};
     return surface;
   }
 };

@@ -34,6 +34,30 @@ TEST(BlobCodec, RoundTripsSurfaces) {
   }
 }
 
+TEST(BlobCodec, RoundTripsDecimatedSurfaces) {
+  const Surface plain = testing::sample_surface(40);
+  Surface surface = plain;
+  surface.decimated = testing::sample_decimated(plain);
+  const Blob blob = encode_surface(surface);
+  const Surface decoded = decode_surface(blob);
+  testing::expect_same(decoded, surface);
+  ASSERT_TRUE(decoded.decimated.has_value());
+  EXPECT_FALSE(decode_surface(encode_surface(plain)).decimated.has_value());
+
+  const auto code = [&](auto change) {
+    Surface changed = surface;
+    change(*changed.decimated);
+    const Blob wrong = encode_surface(changed);
+    return error_of([&] { (void)decode_surface(wrong); });
+  };
+  EXPECT_EQ(code([](DecimatedMesh& d) { d.mesh.faces(2, 1) = static_cast<std::int32_t>(d.mesh.vertex_count()); }),
+            StorageErrorCode::corrupt_blob);
+  EXPECT_EQ(code([](DecimatedMesh& d) { d.places.back().face = static_cast<std::int32_t>(d.mesh.face_count()); }),
+            StorageErrorCode::corrupt_blob);
+  EXPECT_EQ(code([](DecimatedMesh& d) { d.places.front().face = -1; }), StorageErrorCode::corrupt_blob);
+  EXPECT_EQ(code([](DecimatedMesh& d) { d.places.pop_back(); }), StorageErrorCode::corrupt_blob);
+}
+
 TEST(BlobCodec, RoundTripsSpheresBitByBit) {
   Points sphere(3, 3);
   sphere << 0.1, -0.0, nan, infinity, -infinity, std::numeric_limits<double>::denorm_min(), 1.0 / 3.0, 1e308, -nan;

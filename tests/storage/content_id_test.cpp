@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "storage/upload_options.h"
+
 namespace spherematch {
 namespace {
 
@@ -24,6 +26,14 @@ TEST(ContentId, DependsOnBytesAndOptions) {
   EXPECT_EQ(fill.sha256, id_of("abc", "repair=none").sha256);
   EXPECT_NE(fill.id, id_of("abd", "repair=fill").id);
   EXPECT_NE(id_of("abcrepair=", "fill").id, fill.id);  // where one ends and the other begins counts
+}
+
+// Stored: shapes of earlier releases must be found again.
+TEST(ContentId, OptionsHaveOneText) {
+  EXPECT_EQ(upload_options({}), "repair=fill");
+  EXPECT_EQ(upload_options({.repair = RepairMode::none}), "repair=none");
+  EXPECT_EQ(upload_options({.repair = RepairMode::fill, .simplify = 5000}), "repair=fill;simplify=5000");
+  EXPECT_EQ(upload_options({.repair = RepairMode::none, .simplify = 500}), "repair=none;simplify=500");
 }
 
 TEST(ContentId, RecognisesItsForm) {

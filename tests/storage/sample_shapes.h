@@ -44,10 +44,23 @@ inline Surface sample_surface(std::int32_t vertices = 12, unsigned seed = 1) {
   return surface;
 }
 
+/// Of about half the vertices.
+inline DecimatedMesh sample_decimated(const Surface& surface, unsigned seed = 7) {
+  std::mt19937 random(seed);
+  const auto vertices = static_cast<std::int32_t>(surface.mesh.vertex_count() / 2);
+  DecimatedMesh decimated;
+  decimated.mesh.vertices = random_matrix<Points>(random, vertices, 3);
+  decimated.mesh.faces = random_triangles(random, 2 * Eigen::Index{vertices} - 4, 0, vertices - 1);
+  std::uniform_int_distribution<std::int32_t> face(0, 2 * vertices - 5);
+  for (Eigen::Index v = 0; v < surface.mesh.vertex_count(); ++v) decimated.places.push_back({face(random), {0.5, 0.25, 0.25}});
+  decimated.seconds = 0.125;
+  return decimated;
+}
+
 /// Different for each seed in every part.
 inline PreprocessedShape sample_prepared(const Surface& surface, unsigned seed = 1, Eigen::Index eigenpairs = 5, Eigen::Index grid = 4) {
   std::mt19937 random(seed);
-  const Eigen::Index vertices = surface.mesh.vertex_count();
+  const Eigen::Index vertices = surface.working_mesh().vertex_count();
   PreprocessedShape shape;
   shape.surface = surface;
   shape.surface.report.dropped_components = static_cast<std::int32_t>(seed);
@@ -75,6 +88,16 @@ inline void expect_same(const Surface& a, const Surface& b) {
   EXPECT_EQ(a.surface_vertex, b.surface_vertex);
   EXPECT_EQ(a.uploaded_faces, b.uploaded_faces);
   EXPECT_EQ(a.report, b.report);
+  ASSERT_EQ(a.decimated.has_value(), b.decimated.has_value());
+  if (!a.decimated) return;
+  EXPECT_TRUE(same_bits(a.decimated->mesh.vertices, b.decimated->mesh.vertices));
+  EXPECT_TRUE(same_bits(a.decimated->mesh.faces, b.decimated->mesh.faces));
+  EXPECT_EQ(a.decimated->seconds, b.decimated->seconds);
+  ASSERT_EQ(a.decimated->places.size(), b.decimated->places.size());
+  for (std::size_t v = 0; v < a.decimated->places.size(); ++v) {
+    EXPECT_EQ(a.decimated->places[v].face, b.decimated->places[v].face);
+    EXPECT_EQ(a.decimated->places[v].weights, b.decimated->places[v].weights);
+  }
 }
 
 inline void expect_same(const PreprocessedShape& a, const PreprocessedShape& b) {

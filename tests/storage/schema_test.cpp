@@ -104,6 +104,7 @@ TEST(Schema, BringsAFileOfTheFirstReleaseUpToDate) {
   EXPECT_EQ(ready->name, "one");
   EXPECT_EQ(ready->state, ShapeState::ready);
   EXPECT_EQ(ready->repair, (RepairReport{1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(ready->simplified, std::nullopt);
   EXPECT_EQ(ready->seconds, (StageSeconds{{"conformal", 1.5}, {"total", 2.5}}));
   EXPECT_EQ(ready->created_at, "2024-01-31T12:00:00.000Z");
   EXPECT_EQ(store.find("c")->error_detail, "y");

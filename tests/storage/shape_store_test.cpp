@@ -51,6 +51,28 @@ TEST_F(ShapeStoreTest, KeepsAnUpload) {
   expect_holds(store_, upload);
 }
 
+TEST_F(ShapeStoreTest, KeepsADecimatedCopy) {
+  const SampleUpload plain(7);
+  SampleUpload coarse(8);
+  coarse.surface.decimated = testing::sample_decimated(coarse.surface);
+  insert(store_, plain, "plain");
+  insert(store_, coarse, "coarse");
+  EXPECT_EQ(store_.find(plain.content.id)->simplified, std::nullopt);
+  EXPECT_EQ(store_.find(coarse.content.id)->simplified, coarse.surface.decimated->mesh.vertex_count());
+  testing::expect_same(store_.load_surface(coarse.content.id), coarse.surface);
+
+  // A preparation speaks of the copy, and may replace it.
+  PreprocessedShape shape = sample_prepared(coarse.surface);
+  shape.surface.decimated.reset();
+  ASSERT_TRUE(store_.save_prepared(coarse.content.id, shape));
+  EXPECT_EQ(store_.find(coarse.content.id)->simplified, std::nullopt);
+  shape = sample_prepared(coarse.surface);
+  EXPECT_EQ(shape.sphere.rows(), coarse.surface.decimated->mesh.vertex_count());
+  ASSERT_TRUE(store_.save_prepared(coarse.content.id, shape));
+  EXPECT_EQ(store_.find(coarse.content.id)->simplified, coarse.surface.decimated->mesh.vertex_count());
+  testing::expect_same(*store_.load_prepared(coarse.content.id), shape);
+}
+
 TEST_F(ShapeStoreTest, KeepsAnyName) {
   using namespace std::string_literals;
   const std::string name = "'; DROP TABLE shapes; -- \0 \xff \xf0\x9f\x90\x88"s;
