@@ -120,6 +120,7 @@ int serve(const ServerOptions& options) {
   add_match_routes(router, context);
   add_match_post_routes(router, context);
   add_job_routes(router, context);
+  add_docs_routes(router);
   HttpServer server(router, uploads, http_settings(options));
   const int port = server.bind(options.host, options.port);
 

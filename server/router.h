@@ -39,6 +39,8 @@ class Router {
   /// Answers in every case. `read_body` is called for a route that takes a body, before the handler.
   [[nodiscard]] HttpResponse handle(HttpRequest& request, const ReadBody& read_body) const;
 
+  [[nodiscard]] const std::vector<Route>& routes() const { return routes_; }
+
   /// The pattern that the path fits, for logs; "-" when there is none.
   [[nodiscard]] std::string_view pattern_of(std::string_view path) const;
 

@@ -58,6 +58,7 @@ LIBRARIES = (
     Library("libpng", r"png\.h", ("engine/io",)),
     # Two tools of one box: mesh repair, and exact predicates on the sphere.
     Library("CGAL", r"CGAL/.*|boost/.*", ("engine/mesh", "engine/sphere"), toolbox=True),
+    Library("yaml-cpp", r"yaml-cpp/.*", ("server",)),
     Library("Spectra", r"Spectra/.*", ("engine",)),
     Library("FFTW", r"fftw3\.h", ("engine",)),
     Library("libsharp", r"libsharp/.*", ("engine",)),

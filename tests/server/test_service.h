@@ -50,6 +50,7 @@ class TestService : public ::testing::Test {
     add_match_routes(*router, *context);
     add_match_post_routes(*router, *context);
     add_job_routes(*router, *context);
+    add_docs_routes(*router);
     add_system_routes(*router, *context);
   }
   void stop() {
