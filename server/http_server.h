@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "server/byte_budget.h"
 #include "server/connection_lobby.h"
@@ -19,6 +21,8 @@ struct HttpServerSettings {
   std::size_t receiving_uploads = 24;                  ///< bodies on their way at once; further ones get 503
   std::size_t upload_memory = std::size_t{256} << 20;  ///< bytes of all bodies together; who would pass it gets 503
   LobbyLimits lobby{};
+  /// The name of who sends a request, by its headers Authorization and X-API-Key; for the log. Empty for nobody in particular.
+  std::function<std::string(std::string_view authorization, std::string_view api_key)> caller{};
 };
 
 class HttpServer {

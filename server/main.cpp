@@ -1,8 +1,6 @@
 // The server: options, store, engine, routes, signals.
 #include <malloc.h>
 #include <pthread.h>
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -10,11 +8,16 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string_view>
 #include <thread>
 
+#include "server/access.h"
+#include "server/event_log.h"
 #include "server/http_server.h"
+#include "server/keys_command.h"
 #include "server/options.h"
 #include "server/preparation_process.h"
 #include "server/real_engine.h"
@@ -27,14 +30,6 @@ namespace spherematch {
 namespace {
 
 constexpr std::chrono::milliseconds stop_deadline{2000};
-
-void set_up_log(const std::string& level) {
-  auto logger = spdlog::stderr_logger_mt("server");
-  logger->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ level=%l %v", spdlog::pattern_time_type::utc);
-  logger->set_level(spdlog::level::from_str(level));
-  logger->flush_on(spdlog::level::trace);
-  spdlog::set_default_logger(logger);
-}
 
 ShapeServiceSettings shape_settings(const ServerOptions& options) {
   return {.workers = static_cast<std::size_t>(options.workers),
@@ -95,7 +90,7 @@ void end_after_deadline(const std::stop_token& stopped_in_time) {
     if (stopped_in_time.stop_requested()) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  spdlog::warn("event=stop_deadline_passed");
+  log_warning("stop_deadline_passed");
   std::_Exit(0);
 }
 
@@ -114,23 +109,31 @@ int serve(const ServerOptions& options) {
   JobStore jobs(store);
   MatchJobs match_jobs(jobs, shapes, match_service, job_settings(options));
   const ServerContext context{options, SPHEREMATCH_VERSION, engine, shapes, matches, match_service, match_jobs, jobs, stop.get_token()};
+  Access access(options.keys.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.keys));
   Router router;
+  router.set_guard([&access](const HttpRequest& request, std::string_view pattern) { access.check(request, pattern); });
   add_system_routes(router, context);
   add_shape_routes(router, context);
   add_match_routes(router, context);
   add_match_post_routes(router, context);
   add_job_routes(router, context);
-  HttpServer server(router, uploads, http_settings(options));
+  HttpServerSettings settings = http_settings(options);
+  settings.caller = [&access](std::string_view authorization, std::string_view api_key) { return access.caller(authorization, api_key); };
+  HttpServer server(router, uploads, settings);
   const int port = server.bind(options.host, options.port);
 
   const bool is_ipv6 = options.host.find(':') != std::string::npos;
   std::cout << "listening on http://" << (is_ipv6 ? "[" + options.host + "]" : options.host) << ":" << port << std::endl;
-  spdlog::info("event=started port={} store={} engine={} threads={}", port, options.store, engine.version(), options.threads);
+  log_info("started", {{"version", SPHEREMATCH_VERSION},
+                       {"port", port},
+                       {"store", options.store},
+                       {"engine", engine.version()},
+                       {"threads", options.threads}});
   std::jthread serving([&server] { server.run(); });
 
   int signal = 0;
   sigwait(&signals, &signal);
-  spdlog::info("event=stopping signal={}", signal);
+  log_info("stopping", {{"signal", signal}});
   std::jthread watchdog(end_after_deadline);
   stop.request_stop();
   matches.close();
@@ -140,7 +143,7 @@ int serve(const ServerOptions& options) {
   shapes.stop();
   serving.join();
   watchdog.request_stop();
-  spdlog::info("event=stopped");
+  log_info("stopped");
   return 0;
 }
 
@@ -152,10 +155,11 @@ int main(int argc, char** argv) {
   if (argc == 3 && argv[1] == std::string_view(spherematch::preparation_argument)) {
     return spherematch::prepare_for_server(STDIN_FILENO, std::max(1, std::atoi(argv[2])));
   }
+  if (argc >= 2 && argv[1] == std::string_view(spherematch::keys_argument)) return spherematch::keys_command(argc - 1, argv + 1);
   const auto [options, exit_code] = spherematch::parse_options(argc, argv, SPHEREMATCH_VERSION);
   if (exit_code) return *exit_code;
   try {
-    spherematch::set_up_log(options.log_level);
+    spherematch::set_up_log(options.log_level, options.log_format);
     return spherematch::serve(options);
   } catch (const std::exception& error) {
     std::cerr << "spherematch-server: " << error.what() << "\n";

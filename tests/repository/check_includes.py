@@ -50,7 +50,8 @@ LIBRARIES = (
     Library("spdlog", r"(spdlog|fmt)/.*", ("server", "client"), everywhere=True),
     Library("CLI11", r"CLI/.*", ("server", "cli"), everywhere=True),
     Library("SQLite", r"sqlite3\.h|SQLiteCpp/.*", ("storage",)),
-    Library("OpenSSL", r"openssl/.*", ("storage",)),
+    # Hashes of uploads, and of keys.
+    Library("OpenSSL", r"openssl/.*", ("storage", "server"), toolbox=True),
     Library("zstd", r"zstd\.h", ("storage",)),
     Library("xxHash", r"xxhash\.h", ("storage",)),
     Library("tinygltf", r"tiny_gltf\.h", ("engine/io",)),
