@@ -1,0 +1,86 @@
+#!/bin/bash
+# docker/smoke-chroot.sh [BASE]: what docker/smoke.sh does, on a machine without a container engine or a registry, as root.
+#
+# buildah performs docker/Dockerfile instruction by instruction in chroot isolation, and runs the image's programs as the image's user.
+# debian:bookworm, which nothing can be pulled from here, is a bare root made by debootstrap: BASE, or a new one, from $MIRROR.
+# Needs the Debian packages buildah, debootstrap, curl and jq, some minutes, and 6 GB in $TMPDIR, which are freed at the end.
+set -euo pipefail
+cd "$(dirname "$(readlink -f "$0")")/.."
+[ "$(id -u)" -eq 0 ] || { echo "smoke: chroot and debootstrap need root" >&2; exit 1; }
+
+place=$(mktemp -d)
+server=
+export STORAGE_DRIVER=${STORAGE_DRIVER:-overlay} BUILDAH_ISOLATION=chroot
+
+buildah_here() {
+  buildah --root "$place/storage" --runroot "$place/run" "$@"
+}
+
+clean_up() {
+  local code=$?
+  [ "$code" -eq 0 ] || [ ! -f "$place/log" ] || tail -n 30 "$place/log" >&2
+  [ -z "$server" ] || kill "$server" 2>/dev/null || true
+  buildah_here rm --all >/dev/null 2>&1 || true
+  buildah_here rmi --all --force >/dev/null 2>&1 || true
+  umount "$place/storage/overlay" 2>/dev/null || true
+  rm -rf "$place"
+}
+trap clean_up EXIT
+
+fail() {
+  echo "smoke: $*" >&2
+  exit 1
+}
+
+make_base() {
+  local base=${1:-} container
+  if [ -z "$base" ]; then
+    base=$place/base
+    debootstrap --variant=minbase bookworm "$base" "${MIRROR:-http://deb.debian.org/debian}" >"$place/log"
+  fi
+  container=$(buildah_here from scratch)
+  buildah_here add -q "$container" "$base" / >/dev/null
+  buildah_here commit -q "$container" docker.io/library/debian:bookworm >/dev/null
+  buildah_here tag docker.io/library/debian:bookworm docker.io/library/debian:bookworm-slim
+  buildah_here rm "$container" >/dev/null
+}
+
+# in_container COMMAND...: with the image's user, environment and working directory.
+in_container() {
+  buildah_here run "$container" -- "$@"
+}
+
+# start: sets `server` to the process and `url` to the address.
+start() {
+  in_container spherematch-server --host 127.0.0.1 --port "$port" >"$place/log" 2>&1 &
+  server=$!
+}
+
+# The server itself, rather than buildah around it, is told to stop, as a container engine would.
+stop() {
+  local pid
+  for pid in $(pgrep -u 10001 -f "^spherematch-server --host 127.0.0.1 --port $port\$"); do kill -TERM "$pid"; done
+  wait "$server" || fail "the server ended with $?"
+  server=
+}
+
+echo "smoke: the base" >&2
+make_base "${1:-}"
+echo "smoke: the image" >&2
+buildah_here build -q --pull-never --format docker -t spherematch -f docker/Dockerfile . >"$place/log" 2>&1
+container=$(buildah_here from --pull-never spherematch)
+port=${PORT:-18080}
+url=http://127.0.0.1:$port
+
+[ "$(in_container id -u)" = 10001 ] || fail "the image's programs do not run as its user"
+! in_container spherematch-server --port "$port" >/dev/null 2>&1 || fail "the server started without keys"
+key=$(in_container spherematch-server keys add --name smoke --scope admin 2>/dev/null)
+start
+docker/smoke-checks.sh "$url" "$key" first
+in_container spherematch-server --port "$port" --check
+stop
+! in_container spherematch-server --port "$port" --check >/dev/null 2>&1 || fail "--check is content with a server that is gone"
+start
+docker/smoke-checks.sh "$url" "$key" again
+stop
+echo "smoke: passed with buildah in chroot isolation, image of $(buildah_here images --format '{{.Size}}' spherematch)"
