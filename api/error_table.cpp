@@ -38,6 +38,7 @@ constexpr auto table = std::to_array<ErrorEntry>({
     {Code::cancelled, "cancelled", 503, "The work was cancelled", true},
     {Code::overloaded, "overloaded", 503, "The server is busy", true},
     {Code::draining, "draining", 503, "The server is stopping", true},
+    {Code::not_ready, "not-ready", 503, "The server is not ready", true},
     {Code::insufficient_storage, "insufficient-storage", 507, "The store is full", true},
     {Code::internal, "internal", 500, "The server failed", true},
 });

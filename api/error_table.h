@@ -44,6 +44,7 @@ enum class Code {
   cancelled,
   overloaded,
   draining,
+  not_ready,
   insufficient_storage,
   internal,
 };

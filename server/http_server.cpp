@@ -133,7 +133,7 @@ class HttpServer::Library final : public httplib::Server {
   bool process_and_close_socket(socket_t socket) override;
   void take_in(int socket, ConnectionLobby::Arrival arrival);
   void serve(int socket);
-  static void turn_away(int socket, const ProblemError& reason);
+  void turn_away(int socket, const ProblemError& reason) const;
   void prepare(httplib::Request& request, Exchange& exchange) const;
   void log(const Exchange& exchange, int status, double milliseconds) const;
   void install_handlers();
@@ -306,7 +306,7 @@ void HttpServer::Library::prepare(httplib::Request& request, Exchange& exchange)
 }
 
 /// On the lobby's thread, so it must not wait for the peer: the request is not read.
-void HttpServer::Library::turn_away(int socket, const ProblemError& reason) {
+void HttpServer::Library::turn_away(int socket, const ProblemError& reason) const {
   const std::string id = random_id();
   const HttpResponse problem = problem_response(reason, id);
   const api::ErrorEntry& entry = api::entry_of(reason.problem().code);
@@ -320,7 +320,8 @@ void HttpServer::Library::turn_away(int socket, const ProblemError& reason) {
   ::recv(socket, scrap.data(), scrap.size(), MSG_DONTWAIT);
   ::shutdown(socket, SHUT_RDWR);
   ::close(socket);
-  log_warning("connection_turned_away", {{"code", entry.wire}});
+  log_warning("connection_turned_away", {{"code", entry.wire}, {"id", id}});
+  if (settings_.on_request) settings_.on_request({.method = "-", .route = "-", .status = entry.status, .seconds = 0});
 }
 
 void HttpServer::Library::log(const Exchange& exchange, int status, double milliseconds) const {
@@ -331,6 +332,10 @@ void HttpServer::Library::log(const Exchange& exchange, int status, double milli
                                {"id", exchange.request_id}};
   if (!exchange.caller.empty()) fields.emplace_back("key", exchange.caller);
   log_info("request", fields);
+  if (settings_.on_request) {
+    settings_.on_request(
+        {.method = exchange.method, .route = router_.pattern_of(exchange.path), .status = status, .seconds = milliseconds / 1000});
+  }
 }
 
 HttpServer::HttpServer(const Router& router, Gate& uploads, const HttpServerSettings& settings)

@@ -38,6 +38,10 @@ void describe(CLI::App& app, ServerOptions& o, std::string& log_format) {
   add_flag(app, "shape-cache-mib", o.shape_cache_mib, "Memory for prepared shapes in MiB")->check(CLI::Range(0, 1'000'000));
   add_flag(app, "match-cache-mib", o.match_cache_mib, "Memory for results of matches in MiB")->check(CLI::Range(0, 1'000'000));
   add_flag(app, "match-store-mib", o.match_store_mib, "Space in the store for results of matches in MiB")->check(CLI::Range(0, 1'000'000));
+  add_flag(app, "min-free-mib", o.min_free_mib, "Free space on the store's disk below which /readyz fails, in MiB")
+      ->check(CLI::Range(0, 100'000'000));
+  add_flag(app, "stall-seconds", o.stall_seconds, "Silence of a preparation or a match after which /readyz fails")
+      ->check(CLI::Range(1, 1'000'000));
   add_flag(app, "log-level", o.log_level, "Least level logged to standard error")
       ->check(CLI::IsMember({"debug", "info", "warn", "error", "off"}));
   add_flag(app, "log-format", log_format, "How a line of the log is written")->check(CLI::IsMember({"text", "json"}));
@@ -57,6 +61,9 @@ ParsedOptions parse_options(int argc, const char* const* argv, const std::string
   app.footer("spherematch-server keys --help: how to make keys. A flag stands before its variable, that before the file of --config.");
   app.set_version_flag("--version", version);
   std::string log_format = "text";
+  app.add_flag("--check", parsed.check,
+               "Start nothing: ask the server that runs on --port for /readyz, print the answer, and end with 0 if it is ready")
+      ->configurable(false);
   describe(app, options, log_format);
   try {
     app.parse(argc, argv);
@@ -66,7 +73,7 @@ ParsedOptions parse_options(int argc, const char* const* argv, const std::string
     return parsed;
   }
   options.log_format = log_format == "json" ? LogFormat::json : LogFormat::text;
-  if (options.keys.empty() && !options.insecure && !is_loopback(options.host)) {
+  if (!parsed.check && options.keys.empty() && !options.insecure && !is_loopback(options.host)) {
     std::cerr << "spherematch-server: --host " << options.host
               << " lets other machines in, and everybody may do everything; give --keys FILE, or --insecure if that is meant\n";
     parsed.exit_code = 2;

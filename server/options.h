@@ -30,6 +30,8 @@ struct ServerOptions {
   int shape_cache_mib = 256;
   int match_cache_mib = 64;
   int match_store_mib = 1024;
+  int min_free_mib = 256;
+  int stall_seconds = 600;
   std::string log_level = "info";
   LogFormat log_format = LogFormat::text;
 
@@ -38,6 +40,7 @@ struct ServerOptions {
 
 struct ParsedOptions {
   ServerOptions options;
+  bool check = false;            ///< only ask a server that runs with these options whether it is ready
   std::optional<int> exit_code;  ///< engaged when the program should end here: after --help, or on a bad flag
 };
 

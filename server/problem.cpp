@@ -44,6 +44,7 @@ int retry_after_seconds(api::Code code) {
     case api::Code::cancelled:
       return 2;
     case api::Code::draining:
+    case api::Code::not_ready:
       return 5;
     default:
       return 0;

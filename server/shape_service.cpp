@@ -237,6 +237,9 @@ void ShapeService::compute(const std::string& id, const Progress& progress) {
   progress.check();
   const bool saved = store_.save_prepared(id, *shape);
   if (saved) cache_.put(id, shape, memory_size(*shape));
+  for (const auto& [stage, seconds] : shape->seconds) {
+    if (settings_.on_stage) settings_.on_stage(stage, seconds);
+  }
   std::vector<LogField> fields{{"shape", id}, {"saved", saved}, {"seconds", seconds_since(started)}};
   for (const auto& [stage, seconds] : shape->seconds) fields.emplace_back(stage, seconds);
   log_info("job_finished", fields);

@@ -54,6 +54,7 @@ LIBRARIES = (
     Library("OpenSSL", r"openssl/.*", ("storage", "server"), toolbox=True),
     Library("zstd", r"zstd\.h", ("storage",)),
     Library("xxHash", r"xxhash\.h", ("storage",)),
+    Library("prometheus-cpp", r"prometheus/.*", ("server",)),
     Library("tinygltf", r"tiny_gltf\.h", ("engine/io",)),
     Library("libzip", r"zip\.h", ("engine/io",)),
     Library("libpng", r"png\.h", ("engine/io",)),

@@ -17,8 +17,9 @@ ParsedOptions parse(std::vector<const char*> arguments) {
 }
 
 TEST(Options, Defaults) {
-  const auto [options, exit_code] = parse({});
+  const auto [options, check, exit_code] = parse({});
   EXPECT_EQ(exit_code, std::nullopt);
+  EXPECT_FALSE(check);
   EXPECT_EQ(options.host, "127.0.0.1");
   EXPECT_EQ(options.port, 8080);
   EXPECT_EQ(options.store, "data/spherematch.db");
@@ -136,6 +137,12 @@ TEST(Options, BadFlagsEndWithTwo) {
   EXPECT_EQ(parse({"--host", "0.0.0.0"}).exit_code, 2);
   EXPECT_NE(::testing::internal::GetCapturedStderr().find("--insecure"), std::string::npos);
   EXPECT_EQ(parse({"--host", "0.0.0.0", "--insecure"}).exit_code, std::nullopt);
+}
+
+TEST(Options, CheckNeedsNoKeys) {
+  const auto parsed = parse({"--check", "--host", "0.0.0.0"});
+  EXPECT_EQ(parsed.exit_code, std::nullopt);
+  EXPECT_TRUE(parsed.check);
 }
 
 TEST(Options, LoopbackIsToldFromNames) {
