@@ -3,12 +3,14 @@
 #
 # buildah performs docker/Dockerfile instruction by instruction in chroot isolation, and runs the image's programs as the image's user.
 # debian:bookworm, which nothing can be pulled from here, is a bare root made by debootstrap: BASE, or a new one, from $MIRROR.
-# Needs the Debian packages buildah, debootstrap, curl and jq, some minutes, and 6 GB in $TMPDIR, which are freed at the end.
+# Needs the Debian packages buildah, debootstrap, curl and jq, some minutes, and 6 GB in $TMPDIR, which are freed at the end; in a
+# directory named by $WORK they stay, and the next run begins with what is there.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 [ "$(id -u)" -eq 0 ] || { echo "smoke: chroot and debootstrap need root" >&2; exit 1; }
 
-place=$(mktemp -d)
+place=${WORK:-$(mktemp -d)}
+mkdir -p "$place"
 server=
 export STORAGE_DRIVER=${STORAGE_DRIVER:-overlay} BUILDAH_ISOLATION=chroot
 
@@ -21,6 +23,7 @@ clean_up() {
   [ "$code" -eq 0 ] || [ ! -f "$place/log" ] || tail -n 30 "$place/log" >&2
   [ -z "$server" ] || kill "$server" 2>/dev/null || true
   buildah_here rm --all >/dev/null 2>&1 || true
+  [ -z "${WORK:-}" ] || return
   buildah_here rmi --all --force >/dev/null 2>&1 || true
   umount "$place/storage/overlay" 2>/dev/null || true
   rm -rf "$place"
@@ -34,6 +37,7 @@ fail() {
 
 make_base() {
   local base=${1:-} container
+  ! buildah_here inspect --type image debian:bookworm >/dev/null 2>&1 || return 0
   if [ -z "$base" ]; then
     base=$place/base
     debootstrap --variant=minbase bookworm "$base" "${MIRROR:-http://deb.debian.org/debian}" >"$place/log"
@@ -50,7 +54,7 @@ in_container() {
   buildah_here run "$container" -- "$@"
 }
 
-# start: sets `server` to the process and `url` to the address.
+# start: sets `server` to the process of buildah.
 start() {
   in_container spherematch-server --host 127.0.0.1 --port "$port" >"$place/log" 2>&1 &
   server=$!
@@ -58,8 +62,10 @@ start() {
 
 # The server itself, rather than buildah around it, is told to stop, as a container engine would.
 stop() {
-  local pid
-  for pid in $(pgrep -u 10001 -f "^spherematch-server --host 127.0.0.1 --port $port\$"); do kill -TERM "$pid"; done
+  local pid=$server child
+  while child=$(pgrep -P "$pid" | head -n 1) && [ -n "$child" ]; do pid=$child; done
+  [[ $(ps -o comm= -p "$pid") = spherematch-ser* ]] || fail "process $pid is not the server"
+  kill -TERM "$pid"
   wait "$server" || fail "the server ended with $?"
   server=
 }
@@ -67,7 +73,7 @@ stop() {
 echo "smoke: the base" >&2
 make_base "${1:-}"
 echo "smoke: the image" >&2
-buildah_here build -q --pull-never --format docker -t spherematch -f docker/Dockerfile . >"$place/log" 2>&1
+buildah_here build -q --layers --pull-never --format docker -t spherematch -f docker/Dockerfile . >"$place/log" 2>&1
 container=$(buildah_here from --pull-never spherematch)
 port=${PORT:-18080}
 url=http://127.0.0.1:$port

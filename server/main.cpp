@@ -14,15 +14,14 @@
 #include <string_view>
 #include <thread>
 
-#include "server/access.h"
 #include "server/check_command.h"
 #include "server/event_log.h"
 #include "server/http_server.h"
 #include "server/keys_command.h"
+#include "server/operations.h"
 #include "server/options.h"
 #include "server/preparation_process.h"
 #include "server/real_engine.h"
-#include "server/routes_operations.h"
 #include "server/server_context.h"
 #include "server/shape_service.h"
 #include "storage/shape_store.h"
@@ -58,46 +57,6 @@ HttpServerSettings http_settings(const ServerOptions& options) {
   settings.max_body_bytes = options.max_body_bytes();
   settings.upload_memory = static_cast<std::size_t>(options.concurrent_uploads) * options.max_body_bytes();
   return settings;
-}
-
-/// The store's file with what SQLite keeps beside it.
-std::uintmax_t store_bytes(const std::string& store) {
-  std::uintmax_t sum = 0;
-  for (const char* suffix : {"", "-wal", "-shm"}) {
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(store + suffix, error);
-    if (!error) sum += size;
-  }
-  return sum;
-}
-
-std::string timed_write(ShapeStore& store) {
-  const auto started = std::chrono::steady_clock::now();
-  store.check_writable();
-  const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - started);
-  return "a write took " + std::to_string(took.count()) + " ms";
-}
-
-MetricsSnapshot snapshot_of(const ServerContext& context) {
-  const JobRunner::Counts jobs = context.shapes.job_counts();
-  const Gate::Counts matches = context.matches.counts();
-  return {.jobs = {{"preprocess", "queued", jobs.queued}, {"preprocess", "processing", jobs.running}},
-          .matches = {{"running", matches.inside}, {"waiting", matches.waiting}},
-          .cache_bytes = {{"shapes", context.shapes.cache_bytes()}},
-          .store_bytes = store_bytes(context.options.store)};
-}
-
-void add_checks(Readiness& readiness, const ServerContext& context, BackgroundCheck& writes) {
-  const ServerOptions& options = context.options;
-  const std::chrono::seconds stall(options.stall_seconds);
-  readiness.add("store", [&writes] { return writes.answer(); });
-  readiness.add("disk", [&options] { return check_free_space(options.store, static_cast<std::uintmax_t>(options.min_free_mib) << 20); });
-  readiness.add("preparations", [&context, stall] { return check_progress("preparations", context.shapes.job_counts().silence, stall); });
-  readiness.add("matches", [&context, stall] { return check_progress("matches", context.matches.counts().longest, stall); });
-  readiness.add("stopping", [&context] {
-    const bool stops = context.stop.stop_requested();
-    return BackgroundCheck::Answer{.good = !stops, .detail = stops ? "the server is stopping" : "the server takes requests"};
-  });
 }
 
 /// What a large upload took goes back to the system with its end. Left alone, the allocator keeps it: after some hundred uploads on
@@ -141,10 +100,11 @@ int serve(const ServerOptions& options) {
   return_memory_early();
   raise_descriptor_limit();
   const sigset_t signals = block_stop_signals();
+  Access access(options.keys.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.keys));
   ShapeStore store(options.store);
   const RealEngine engine(options.threads);
-  Metrics metrics(SPHEREMATCH_VERSION, engine.version());
-  ShapeService shapes(store, engine, shape_settings(options, metrics));
+  Operations operations(access, store, SPHEREMATCH_VERSION, engine.version());
+  ShapeService shapes(store, engine, shape_settings(options, operations.metrics()));
   Gate matches("matches", static_cast<std::size_t>(options.concurrent_matches), static_cast<std::size_t>(options.waiting_matches));
   Gate uploads("uploads", static_cast<std::size_t>(options.concurrent_uploads), waiting_uploads);
   std::stop_source stop;
@@ -153,24 +113,15 @@ int serve(const ServerOptions& options) {
   JobStore jobs(store);
   MatchJobs match_jobs(jobs, shapes, match_service, job_settings(options));
   const ServerContext context{options, SPHEREMATCH_VERSION, engine, shapes, matches, match_service, match_jobs, jobs, stop.get_token()};
-  Access access(options.keys.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.keys));
   Router router;
-  router.set_guard([&access](const HttpRequest& request, std::string_view pattern) { access.check(request, pattern); });
+  operations.add_to(router, context);
   add_system_routes(router, context);
   add_shape_routes(router, context);
   add_match_routes(router, context);
   add_match_post_routes(router, context);
   add_job_routes(router, context);
-  add_metrics_route(router, metrics, [&context] { return snapshot_of(context); });
-  BackgroundCheck writes([&store] { return timed_write(store); }, {});
-  Readiness readiness;
-  add_checks(readiness, context, writes);
-  add_readiness_route(router, readiness);
   HttpServerSettings settings = http_settings(options);
-  settings.caller = [&access](std::string_view authorization, std::string_view api_key) { return access.caller(authorization, api_key); };
-  settings.on_request = [&metrics](const FinishedRequest& request) {
-    metrics.request_finished(request.method, request.route, request.status, request.seconds);
-  };
+  operations.add_to(settings);
   HttpServer server(router, uploads, settings);
   const int port = server.bind(options.host, options.port);
 
