@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
 
-constexpr std::array<std::pair<std::string_view, std::int64_t Limits::*>, 10> limit_members{{
+constexpr std::array<std::pair<std::string_view, std::int64_t Limits::*>, 12> limit_members{{
     {"body_bytes", &Limits::body_bytes},
     {"vertices", &Limits::vertices},
     {"queued_jobs", &Limits::queued_jobs},
@@ -20,6 +20,8 @@ constexpr std::array<std::pair<std::string_view, std::int64_t Limits::*>, 10> li
     {"workers", &Limits::workers},
     {"threads", &Limits::threads},
     {"shape_cache_bytes", &Limits::shape_cache_bytes},
+    {"match_cache_bytes", &Limits::match_cache_bytes},
+    {"match_store_bytes", &Limits::match_store_bytes},
     {"wait_seconds", &Limits::wait_seconds},
 }};
 

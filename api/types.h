@@ -261,6 +261,8 @@ struct Limits {
   std::int64_t workers = 0;
   std::int64_t threads = 0;
   std::int64_t shape_cache_bytes = 0;
+  std::int64_t match_cache_bytes = 0;
+  std::int64_t match_store_bytes = 0;
   std::int64_t wait_seconds = 0;
   bool operator==(const Limits&) const = default;
 };

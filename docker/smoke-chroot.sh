@@ -3,7 +3,7 @@
 #
 # buildah performs docker/Dockerfile instruction by instruction in chroot isolation, and runs the image's programs as the image's user.
 # debian:bookworm, which nothing can be pulled from here, is a bare root made by debootstrap: BASE, or a new one, from $MIRROR.
-# Needs the Debian packages buildah, debootstrap, curl and jq, some minutes, and 6 GB in $TMPDIR, which are freed at the end; in a
+# Needs the Debian packages buildah, debootstrap, curl, jq and procps, some minutes, and 6 GB in $TMPDIR, which are freed at the end; in a
 # directory named by $WORK they stay, and the next run begins with what is there.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
@@ -21,7 +21,7 @@ buildah_here() {
 clean_up() {
   local code=$?
   [ "$code" -eq 0 ] || [ ! -f "$place/log" ] || tail -n 30 "$place/log" >&2
-  [ -z "$server" ] || kill "$server" 2>/dev/null || true
+  [ -z "$server" ] || kill "$(innermost "$server")" 2>/dev/null || true
   buildah_here rm --all >/dev/null 2>&1 || true
   [ -z "${WORK:-}" ] || return
   buildah_here rmi --all --force >/dev/null 2>&1 || true
@@ -29,6 +29,13 @@ clean_up() {
   rm -rf "$place"
 }
 trap clean_up EXIT
+
+# innermost PID: the process at the end of the chain of buildah's own processes. It does not end with them.
+innermost() {
+  local pid=$1 child
+  while child=$(pgrep -P "$pid" | head -n 1) && [ -n "$child" ]; do pid=$child; done
+  echo "$pid"
+}
 
 fail() {
   echo "smoke: $*" >&2
@@ -62,8 +69,8 @@ start() {
 
 # The server itself, rather than buildah around it, is told to stop, as a container engine would.
 stop() {
-  local pid=$server child
-  while child=$(pgrep -P "$pid" | head -n 1) && [ -n "$child" ]; do pid=$child; done
+  local pid
+  pid=$(innermost "$server")
   [[ $(ps -o comm= -p "$pid") = spherematch-ser* ]] || fail "process $pid is not the server"
   kill -TERM "$pid"
   wait "$server" || fail "the server ended with $?"

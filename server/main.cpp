@@ -40,8 +40,9 @@ ShapeServiceSettings shape_settings(const ServerOptions& options, Metrics& metri
           .on_stage = [&metrics](std::string_view stage, double seconds) { metrics.stage_finished(stage, seconds); }};
 }
 
-MatchServiceSettings match_settings(const ServerOptions& options) {
-  return {.memory_bytes = static_cast<std::size_t>(options.match_cache_mib) << 20};
+MatchServiceSettings match_settings(const ServerOptions& options, Metrics& metrics) {
+  return {.memory_bytes = static_cast<std::size_t>(options.match_cache_mib) << 20,
+          .observe = [&metrics](MatchSource source, double seconds) { metrics.match_finished(to_string(source), seconds); }};
 }
 
 MatchJobsSettings job_settings(const ServerOptions& options) { return {.workers = static_cast<std::size_t>(options.concurrent_matches)}; }
@@ -109,7 +110,7 @@ int serve(const ServerOptions& options) {
   Gate uploads("uploads", static_cast<std::size_t>(options.concurrent_uploads), waiting_uploads);
   std::stop_source stop;
   MatchStore match_store(store, static_cast<std::size_t>(options.match_store_mib) << 20);
-  MatchService match_service(shapes, match_store, engine, matches, stop.get_token(), match_settings(options));
+  MatchService match_service(shapes, match_store, engine, matches, stop.get_token(), match_settings(options, operations.metrics()));
   JobStore jobs(store);
   MatchJobs match_jobs(jobs, shapes, match_service, job_settings(options));
   const ServerContext context{options, SPHEREMATCH_VERSION, engine, shapes, matches, match_service, match_jobs, jobs, stop.get_token()};

@@ -1,5 +1,7 @@
 #include "server/match_jobs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <random>
 #include <utility>

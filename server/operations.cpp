@@ -29,10 +29,16 @@ std::uintmax_t store_bytes(const std::string& store) {
 
 MetricsSnapshot snapshot_of(const ServerContext& context) {
   const JobRunner::Counts jobs = context.shapes.job_counts();
+  const MatchJobs::Counts match_jobs = context.match_jobs.counts();
   const Gate::Counts matches = context.matches.counts();
-  return {.jobs = {{"preprocess", "queued", jobs.queued}, {"preprocess", "processing", jobs.running}},
+  return {.jobs = {{"preprocess", "queued", jobs.queued},
+                   {"preprocess", "processing", jobs.running},
+                   {"match", "queued", match_jobs.queued},
+                   {"match", "processing", match_jobs.processing}},
           .matches = {{"running", matches.inside}, {"waiting", matches.waiting}},
-          .cache_bytes = {{"shapes", context.shapes.cache_bytes()}},
+          .cache_bytes = {{"shapes", context.shapes.cache_bytes()},
+                          {"matches", context.match_service.memory_bytes()},
+                          {"stored_matches", context.match_service.store_bytes()}},
           .store_bytes = store_bytes(context.options.store)};
 }
 

@@ -62,6 +62,8 @@ HttpResponse get_version(const ServerContext& context, const HttpRequest& reques
                                   .workers = options.workers,
                                   .threads = options.threads,
                                   .shape_cache_bytes = static_cast<std::int64_t>(options.shape_cache_mib) << 20,
+                                  .match_cache_bytes = static_cast<std::int64_t>(options.match_cache_mib) << 20,
+                                  .match_store_bytes = static_cast<std::int64_t>(options.match_store_mib) << 20,
                                   .wait_seconds = static_cast<std::int64_t>(max_wait_seconds)},
                        .mesh_formats = {"off", "obj", "ply", "stl", "gltf", "glb"},
                        .match_formats = {"json"},

@@ -84,7 +84,7 @@ TEST(Json, RoundTrips) {
 
   const Health health{"draining", 1, 2, 3, 4};
   EXPECT_EQ(from_text<Health>(to_text(to_json(health))), health);
-  Version version{"0.1", "7", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, {"off", "ply"}, {"json"}, Json::object()};
+  Version version{"0.1", "7", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, {"off", "ply"}, {"json"}, Json::object()};
   version.parameters["match"] = {{"max_candidates", 4}};
   EXPECT_EQ(from_text<Version>(to_text(to_json(version))), version);
   const Readiness readiness{{{"store", true, "a write took 1 ms"}, {"disk", true, "9 MiB are free"}}};

@@ -4,12 +4,14 @@ import os
 import re
 import signal
 import socket
+import sqlite3
 import subprocess
 import time
 import unittest
 
 import support
 
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..')
 A = support.off(support.bumpy(2))
 
 
@@ -97,7 +99,7 @@ class OperationsTest(support.TestCase):
     def test_a_configuration_file_and_a_log_in_json(self):
         place = self.directory()
         with open(place + '/s.toml', 'w') as file:
-            file.write(f'# for the test\nmax-body-mib = 3\nworkers = 2\nlog-format = json\n')
+            file.write('# for the test\nmax-body-mib = 3\nworkers = 2\nlog-format = json\n')
         server = self.serve(place + '/s "1".db', '--config', place + '/s.toml', '--workers', '1')
         limits = server.get('/version').json()['limits']
         self.assertEqual((limits['body_bytes'], limits['workers']), (3 << 20, 1))
@@ -151,7 +153,6 @@ class OperationsTest(support.TestCase):
         self.assertEqual(run('--check', '--port', str(full.port)).returncode, 1)
 
     def test_a_store_that_takes_no_writes_is_noticed_and_forgotten(self):
-        import sqlite3
         path = self.directory() + '/s.db'
         server = self.serve(path)
         other = sqlite3.connect(path, isolation_level=None)
@@ -201,9 +202,9 @@ class OperationsTest(support.TestCase):
         text = run('--help').stdout
         flags = re.findall(r'^  (?:-\w,)?--([a-z-]+)', text, re.MULTILINE)
         self.assertGreater(len(flags), 15)
-        with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'docker', 'spherematch.toml')) as file:
+        with open(os.path.join(ROOT, 'docker', 'spherematch.toml')) as file:
             sample = file.read()
-        with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'docs', 'operations.md')) as file:
+        with open(os.path.join(ROOT, 'docs', 'operations.md')) as file:
             manual = file.read()
         for flag in set(flags) - {'help', 'version', 'check'}:
             self.assertIn('SPHEREMATCH_' + flag.upper().replace('-', '_'), text)
@@ -213,7 +214,7 @@ class OperationsTest(support.TestCase):
 
     def test_the_sample_configuration_is_the_defaults(self):
         place = self.directory()
-        with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'docker', 'spherematch.toml')) as file:
+        with open(os.path.join(ROOT, 'docker', 'spherematch.toml')) as file:
             lines = re.findall(r'(?m)^# ([a-z-]+ = .*)$', file.read())
         # Threads and matches depend on the machine, and the server's place and keys are the test's.
         own = ('threads', 'concurrent-matches', 'host', 'port', 'store', 'keys')
@@ -222,6 +223,25 @@ class OperationsTest(support.TestCase):
         plain = self.serve(place + '/a.db').get('/version').json()
         configured = self.serve(place + '/b.db', '--config', place + '/s.toml').get('/version').json()
         self.assertEqual(configured, plain)
+
+
+class ContainerTest(support.TestCase):
+    def test_the_image_has_the_libraries_of_the_programs(self):
+        """Both ways: one that is missing is found by the build of the image alone, and one too many by nobody."""
+        packages = set()
+        for program in (support.SERVER, support.CLI):
+            listing = subprocess.run(['objdump', '-p', program], capture_output=True, text=True, check=True).stdout
+            paths = subprocess.run(['ldd', program], capture_output=True, text=True, check=True).stdout
+            for name in re.findall(r'NEEDED\s+(\S+)', listing):
+                path = re.search(rf'{re.escape(name)} => (\S+)', paths)
+                if path is None:
+                    continue  # the loader
+                real = os.path.realpath(path.group(1))
+                found = subprocess.run(['dpkg-query', '-S', real, real.removeprefix('/usr')], capture_output=True, text=True).stdout
+                packages.add(found.split(':')[0])
+        with open(os.path.join(ROOT, 'scripts', 'packages', 'runtime.txt')) as file:
+            listed = {line.strip() for line in file if not line.startswith('#')}
+        self.assertEqual(packages - {'libc6', 'libgcc-s1', 'libstdc++6'}, listed)
 
 
 if __name__ == '__main__':

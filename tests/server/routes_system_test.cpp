@@ -28,6 +28,8 @@ TEST_F(RoutesSystem, VersionShowsLimitsAndParameters) {
   EXPECT_EQ(version.limits.workers, options.workers);
   EXPECT_EQ(version.limits.threads, options.threads);
   EXPECT_EQ(version.limits.shape_cache_bytes, 256 << 20);
+  EXPECT_EQ(version.limits.match_cache_bytes, 64 << 20);
+  EXPECT_EQ(version.limits.match_store_bytes, 1 << 30);
   EXPECT_EQ(version.mesh_formats.size(), 6U);
   EXPECT_TRUE(version.parameters["match"].contains("max_candidates"));
   EXPECT_TRUE(version.parameters["preprocess"].contains("eigenpairs"));
