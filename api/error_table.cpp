@@ -10,6 +10,8 @@ namespace {
 constexpr auto table = std::to_array<ErrorEntry>({
     {Code::bad_request, "bad-request", 400, "The request is not well-formed HTTP", false},
     {Code::invalid_parameter, "invalid-parameter", 400, "A parameter is unknown or out of range", false},
+    {Code::unauthorized, "unauthorized", 401, "The request needs a key", false},
+    {Code::forbidden, "forbidden", 403, "The key does not allow this", false},
     {Code::not_found, "not-found", 404, "There is no such resource", false},
     {Code::method_not_allowed, "method-not-allowed", 405, "The resource does not have this method", false},
     {Code::not_acceptable, "not-acceptable", 406, "No representation fits the Accept header", false},
@@ -36,6 +38,7 @@ constexpr auto table = std::to_array<ErrorEntry>({
     {Code::cancelled, "cancelled", 503, "The work was cancelled", true},
     {Code::overloaded, "overloaded", 503, "The server is busy", true},
     {Code::draining, "draining", 503, "The server is stopping", true},
+    {Code::not_ready, "not-ready", 503, "The server is not ready", true},
     {Code::insufficient_storage, "insufficient-storage", 507, "The store is full", true},
     {Code::internal, "internal", 500, "The server failed", true},
 });

@@ -12,6 +12,8 @@ enum class Code {
   // the request
   bad_request,
   invalid_parameter,
+  unauthorized,
+  forbidden,
   not_found,
   method_not_allowed,
   not_acceptable,
@@ -42,6 +44,7 @@ enum class Code {
   cancelled,
   overloaded,
   draining,
+  not_ready,
   insufficient_storage,
   internal,
 };

@@ -26,6 +26,7 @@ class JsonError : public std::runtime_error {
 [[nodiscard]] Json to_json(const JobPage& value);
 [[nodiscard]] Json to_json(const PairResult& value);
 [[nodiscard]] Json to_json(const Health& value);
+[[nodiscard]] Json to_json(const Readiness& value);
 [[nodiscard]] Json to_json(const Version& value);
 
 /// The bytes that travel. Text that is not UTF-8 gets replacement characters rather than an error.
@@ -55,6 +56,8 @@ template <>
 PairResult from_text<PairResult>(std::string_view text);
 template <>
 Health from_text<Health>(std::string_view text);
+template <>
+Readiness from_text<Readiness>(std::string_view text);
 template <>
 Version from_text<Version>(std::string_view text);
 

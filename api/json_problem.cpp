@@ -70,6 +70,7 @@ Json to_json(const Problem& value) {
     if (json["elements"].size() == max_elements) break;
     json["elements"].push_back(to_json(element));
   }
+  if (!value.checks.empty()) json["checks"] = checks_json(value.checks);
   return json;
 }
 
@@ -98,6 +99,7 @@ Problem read_problem(const Json& value, const std::string& path) {
   const Json& elements = array_at(reader.member("elements"), elements_path);
   if (elements.size() > max_elements) throw JsonError(elements_path + ": more than " + std::to_string(max_elements) + " elements");
   for (std::size_t i = 0; i < elements.size(); ++i) problem.elements.push_back(read_element(elements[i], element_path(elements_path, i)));
+  if (value.contains("checks")) problem.checks = read_checks(reader);
   reader.finish();
   return problem;
 }

@@ -53,6 +53,9 @@ const Json& array_at(const Json& value, const std::string& path, std::size_t siz
 [[nodiscard]] Problem read_problem(const Json& value, const std::string& path);
 [[nodiscard]] Match read_match(const Json& value, const std::string& path);
 [[nodiscard]] Json text_or_null(const std::string& text);
+/// The array in the member "checks".
+[[nodiscard]] std::vector<ReadinessCheck> read_checks(ObjectReader& reader);
+[[nodiscard]] Json checks_json(const std::vector<ReadinessCheck>& checks);
 [[nodiscard]] Json named_numbers_json(const NamedNumbers& values);
 
 }  // namespace spherematch::api

@@ -38,6 +38,14 @@ using Element = std::variant<VertexElement, FaceElement, EdgeElement>;
 
 inline constexpr std::size_t max_elements = 20;
 
+/// One line of what GET /readyz reports.
+struct ReadinessCheck {
+  std::string name;
+  bool ok = false;
+  std::string detail;
+  bool operator==(const ReadinessCheck&) const = default;
+};
+
 /// RFC 9457. type, title, status and retryable follow from the code.
 struct Problem {
   Code code = Code::internal;
@@ -45,7 +53,8 @@ struct Problem {
   std::string request_id;  ///< empty where no request is meant, as in a stored error
   std::optional<std::int64_t> limit;
   std::optional<std::int64_t> actual;
-  std::vector<Element> elements;  ///< at most max_elements
+  std::vector<Element> elements;       ///< at most max_elements
+  std::vector<ReadinessCheck> checks;  ///< of Code::not_ready alone; without any, JSON has no such member
   bool operator==(const Problem&) const = default;
 };
 
@@ -236,12 +245,24 @@ struct Health {
   bool operator==(const Health&) const = default;
 };
 
+/// GET /readyz of a server that is ready; of another it is a Problem.
+struct Readiness {
+  std::vector<ReadinessCheck> checks;
+  bool operator==(const Readiness&) const = default;
+};
+
 struct Limits {
   std::int64_t body_bytes = 0;
   std::int64_t vertices = 0;
   std::int64_t queued_jobs = 0;
   std::int64_t concurrent_matches = 0;
   std::int64_t waiting_matches = 0;
+  std::int64_t concurrent_uploads = 0;
+  std::int64_t workers = 0;
+  std::int64_t threads = 0;
+  std::int64_t shape_cache_bytes = 0;
+  std::int64_t match_cache_bytes = 0;
+  std::int64_t match_store_bytes = 0;
   std::int64_t wait_seconds = 0;
   bool operator==(const Limits&) const = default;
 };
@@ -250,7 +271,9 @@ struct Version {
   std::string version;
   std::string engine;
   Limits limits;
-  Json parameters = Json::object();  ///< the engine's, by group and field; clients show it, nothing depends on it
+  std::vector<std::string> mesh_formats;   ///< that an upload may have
+  std::vector<std::string> match_formats;  ///< values of `format` of GET /match
+  Json parameters = Json::object();        ///< the engine's, by group and field; clients show it, nothing depends on it
   bool operator==(const Version&) const = default;
 };
 

@@ -5,35 +5,37 @@
 namespace spherematch {
 
 Gate::Permit::~Permit() {
-  if (gate_ != nullptr) gate_->leave();
+  if (gate_ != nullptr) gate_->leave(entered_);
 }
 
 Gate::Permit Gate::enter() {
   std::unique_lock lock(mutex_);
-  if (!closed_ && inside_ == slots_) {
+  if (!closed_ && inside_.size() == slots_) {
     if (waiting_ == max_waiting_) throw ProblemError(api::Code::overloaded, "too many " + what_ + " at once; try again");
     ++waiting_;
-    freed_.wait(lock, [this] { return closed_ || inside_ < slots_; });
+    freed_.wait(lock, [this] { return closed_ || inside_.size() < slots_; });
     --waiting_;
   }
   if (closed_) throw ProblemError(api::Code::draining, "the server is stopping");
-  ++inside_;
-  return Permit(this);
+  const auto now = Clock::now();
+  inside_.insert(now);
+  return {this, now};
 }
 
 Gate::Permit Gate::enter_behind() {
   std::unique_lock lock(mutex_);
-  freed_further_.wait(lock, [this] { return closed_ || (inside_ < slots_ && waiting_ == 0); });
+  freed_further_.wait(lock, [this] { return closed_ || (inside_.size() < slots_ && waiting_ == 0); });
   if (closed_) throw ProblemError(api::Code::draining, "the server is stopping");
-  ++inside_;
-  return Permit(this);
+  const auto now = Clock::now();
+  inside_.insert(now);
+  return {this, now};
 }
 
-void Gate::leave() {
+void Gate::leave(Clock::time_point entered) {
   bool awaited = false;
   {
     const std::lock_guard lock(mutex_);
-    --inside_;
+    inside_.erase(inside_.find(entered));
     awaited = waiting_ > 0;
   }
   (awaited ? freed_ : freed_further_).notify_one();
@@ -50,7 +52,7 @@ void Gate::close() {
 
 Gate::Counts Gate::counts() const {
   const std::lock_guard lock(mutex_);
-  return {inside_, waiting_};
+  return {inside_.size(), waiting_, inside_.empty() ? Clock::duration{} : Clock::now() - *inside_.begin()};
 }
 
 }  // namespace spherematch

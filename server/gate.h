@@ -1,9 +1,11 @@
 // Bounds how many threads do something heavy at once, and how many wait for it.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <mutex>
+#include <set>
 #include <string>
 
 namespace spherematch {
@@ -11,6 +13,8 @@ namespace spherematch {
 /// Thread-safe.
 class Gate {
  public:
+  using Clock = std::chrono::steady_clock;
+
   /// `what` names the work in the message to those who are turned away.
   Gate(std::string what, std::size_t slots, std::size_t waiting) : what_(std::move(what)), slots_(slots), max_waiting_(waiting) {}
   Gate(const Gate&) = delete;
@@ -19,8 +23,8 @@ class Gate {
   /// Holds one slot until destroyed; must not outlive the gate.
   class Permit {
    public:
-    explicit Permit(Gate* gate) : gate_(gate) {}
-    Permit(Permit&& other) noexcept : gate_(other.gate_) { other.gate_ = nullptr; }
+    Permit(Gate* gate, Clock::time_point entered) : gate_(gate), entered_(entered) {}
+    Permit(Permit&& other) noexcept : gate_(other.gate_), entered_(other.entered_) { other.gate_ = nullptr; }
     Permit& operator=(Permit&&) = delete;
     Permit(const Permit&) = delete;
     Permit& operator=(const Permit&) = delete;
@@ -28,6 +32,7 @@ class Gate {
 
    private:
     Gate* gate_;
+    Clock::time_point entered_;
   };
 
   /// Waits for a slot. @throws ProblemError(overloaded) when too many wait already, ProblemError(draining) once closed
@@ -42,19 +47,20 @@ class Gate {
   struct Counts {
     std::size_t inside = 0;
     std::size_t waiting = 0;
+    Clock::duration longest{};  ///< how long the one who is inside longest has been there
   };
   [[nodiscard]] Counts counts() const;
 
  private:
-  void leave();
+  void leave(Clock::time_point entered);
 
   const std::string what_;
   const std::size_t slots_;
   const std::size_t max_waiting_;
   mutable std::mutex mutex_;
-  std::condition_variable freed_;          ///< for those in enter()
-  std::condition_variable freed_further_;  ///< for those behind them
-  std::size_t inside_ = 0;
+  std::condition_variable freed_;            ///< for those in enter()
+  std::condition_variable freed_further_;    ///< for those behind them
+  std::multiset<Clock::time_point> inside_;  ///< when each entered
   std::size_t waiting_ = 0;
   bool closed_ = false;
 };

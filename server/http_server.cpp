@@ -11,8 +11,8 @@
 // (server/socket_stream.h).
 #include "server/http_server.h"
 
+#include <fmt/format.h>
 #include <httplib.h>
-#include <spdlog/spdlog.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -25,6 +25,7 @@
 
 #include "api/json.h"
 #include "server/body_reader.h"
+#include "server/event_log.h"
 #include "server/problem.h"
 #include "server/socket_stream.h"
 #include "server/task_queue.h"
@@ -125,14 +126,15 @@ class HttpServer::Library final : public httplib::Server {
     std::string method = "-";
     std::string path;
     std::string request_id = "-";
+    std::string caller;
     bool has_body = false;
   };
 
   bool process_and_close_socket(socket_t socket) override;
   void take_in(int socket, ConnectionLobby::Arrival arrival);
   void serve(int socket);
-  static void turn_away(int socket, const ProblemError& reason);
-  static void prepare(httplib::Request& request, Exchange& exchange);
+  void turn_away(int socket, const ProblemError& reason) const;
+  void prepare(httplib::Request& request, Exchange& exchange) const;
   void log(const Exchange& exchange, int status, double milliseconds) const;
   void install_handlers();
   HandlerResponse route(const httplib::Request& request, httplib::Response& response);
@@ -180,6 +182,10 @@ void HttpServer::Library::install_handlers() {
   set_expect_100_continue_handler([this](const httplib::Request& request, httplib::Response& response) {
     const Body kind = router_.body_of(request.method, request.path);
     if (kind == Body::none) return 100;
+    if (auto refused = router_.refusal(request_of(request))) {
+      write_to(response, *std::move(refused));
+      return response.status;
+    }
     const auto refusal = refuse_body(request, kind, max_bytes(kind));
     if (!refusal) return 100;
     write_to(response, problem_response(*refusal, request.get_header_value(id_header)));
@@ -205,6 +211,10 @@ std::size_t HttpServer::Library::max_bytes(Body kind) const { return kind == Bod
 
 httplib::Server::HandlerResponse HttpServer::Library::route(const httplib::Request& from, httplib::Response& to) {
   if (const Body kind = router_.body_of(from.method, from.path); kind != Body::none) {
+    if (auto refused = router_.refusal(request_of(from))) {
+      write_to(to, *std::move(refused));
+      return HandlerResponse::Handled;
+    }
     const auto refusal = refuse_body(from, kind, max_bytes(kind));
     if (!refusal) return HandlerResponse::Unhandled;  // goes on to the content reader
     write_to(to, problem_response(*refusal, from.get_header_value(id_header)));
@@ -282,18 +292,21 @@ void HttpServer::Library::serve(int socket) {
   ::close(socket);
 }
 
-void HttpServer::Library::prepare(httplib::Request& request, Exchange& exchange) {
+void HttpServer::Library::prepare(httplib::Request& request, Exchange& exchange) const {
   request.ranges.clear();
   exchange.request_id = request_id_of(request);
   request.headers.erase(id_header);
   request.set_header(id_header, exchange.request_id);
   exchange.method = request.method;
   exchange.path = request.path;
+  if (settings_.caller) {
+    exchange.caller = settings_.caller(request.get_header_value("Authorization"), request.get_header_value("X-API-Key"));
+  }
   exchange.has_body = request.has_header("Content-Length") || request.has_header("Transfer-Encoding");
 }
 
 /// On the lobby's thread, so it must not wait for the peer: the request is not read.
-void HttpServer::Library::turn_away(int socket, const ProblemError& reason) {
+void HttpServer::Library::turn_away(int socket, const ProblemError& reason) const {
   const std::string id = random_id();
   const HttpResponse problem = problem_response(reason, id);
   const api::ErrorEntry& entry = api::entry_of(reason.problem().code);
@@ -307,12 +320,22 @@ void HttpServer::Library::turn_away(int socket, const ProblemError& reason) {
   ::recv(socket, scrap.data(), scrap.size(), MSG_DONTWAIT);
   ::shutdown(socket, SHUT_RDWR);
   ::close(socket);
-  spdlog::warn("event=connection_turned_away code={}", entry.wire);
+  log_warning("connection_turned_away", {{"code", entry.wire}, {"id", id}});
+  if (settings_.on_request) settings_.on_request({.method = "-", .route = "-", .status = entry.status, .seconds = 0});
 }
 
 void HttpServer::Library::log(const Exchange& exchange, int status, double milliseconds) const {
-  spdlog::info("event=request method={} route={} status={} ms={:.1f} id={}", exchange.method, router_.pattern_of(exchange.path), status,
-               milliseconds, exchange.request_id);
+  std::vector<LogField> fields{{"method", exchange.method},
+                               {"route", router_.pattern_of(exchange.path)},
+                               {"status", status},
+                               {"ms", milliseconds},
+                               {"id", exchange.request_id}};
+  if (!exchange.caller.empty()) fields.emplace_back("key", exchange.caller);
+  log_info("request", fields);
+  if (settings_.on_request) {
+    settings_.on_request(
+        {.method = exchange.method, .route = router_.pattern_of(exchange.path), .status = status, .seconds = milliseconds / 1000});
+  }
 }
 
 HttpServer::HttpServer(const Router& router, Gate& uploads, const HttpServerSettings& settings)

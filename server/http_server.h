@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "server/byte_budget.h"
 #include "server/connection_lobby.h"
@@ -12,6 +14,14 @@
 
 namespace spherematch {
 
+/// A request that was answered, or a connection that was turned away.
+struct FinishedRequest {
+  std::string_view method;  ///< "-" where it is not known
+  std::string_view route;   ///< the pattern; "-" where none fits
+  int status = 0;
+  double seconds = 0;
+};
+
 struct HttpServerSettings {
   std::size_t max_body_bytes = std::size_t{64} << 20;
   std::size_t threads = 32;                            ///< connections served at once
@@ -19,6 +29,10 @@ struct HttpServerSettings {
   std::size_t receiving_uploads = 24;                  ///< bodies on their way at once; further ones get 503
   std::size_t upload_memory = std::size_t{256} << 20;  ///< bytes of all bodies together; who would pass it gets 503
   LobbyLimits lobby{};
+  /// The name of who sends a request, by its headers Authorization and X-API-Key; for the log. Empty for nobody in particular.
+  std::function<std::string(std::string_view authorization, std::string_view api_key)> caller{};
+  /// Called from any thread; must not wait.
+  std::function<void(const FinishedRequest&)> on_request{};
 };
 
 class HttpServer {

@@ -18,6 +18,7 @@ JobRunner::Submitted JobRunner::submit(const std::string& key, bool beyond_limit
     if (!beyond_limit && queue_.size() >= max_queued_) return Submitted::full;
     auto job = std::make_shared<Job>();
     job->key = key;
+    if (queue_.empty()) queue_moved_ = Clock::now();
     active_.emplace(key, job);
     queue_.push_back(std::move(job));
   }
@@ -74,7 +75,12 @@ void JobRunner::stop() {
 
 JobRunner::Counts JobRunner::counts() const {
   const std::lock_guard lock(mutex_);
-  return {queue_.size(), running_.size()};
+  Counts counts{queue_.size(), running_.size(), {}};
+  const auto now = Clock::now();
+  for (const JobPointer& job : running_) counts.silence = std::max(counts.silence, now - job->heard_of);
+  // With every worker busy the queue may stand for as long as its jobs take; then it is they that have to be heard of.
+  if (!queue_.empty() && running_.size() < workers_.size()) counts.silence = std::max(counts.silence, now - queue_moved_);
+  return counts;
 }
 
 void JobRunner::work_loop() {
@@ -87,6 +93,7 @@ void JobRunner::work_loop() {
       job = queue_.front();
       queue_.pop_front();
       job->status.running = true;
+      job->heard_of = queue_moved_ = Clock::now();
       running_.push_back(job);
     }
     finish(job, run(job));
@@ -97,6 +104,7 @@ JobRunner::Outcome JobRunner::run(const JobPointer& job) {
   const Progress progress{.report =
                               [this, job](std::string_view stage, double fraction) {
                                 const std::lock_guard lock(mutex_);
+                                job->heard_of = Clock::now();
                                 job->status.stage = stage;
                                 // Stages may be reported out of order by several threads; a listener must never see a step back.
                                 if (fraction > job->status.progress) job->status.progress = std::min(fraction, 1.0);

@@ -61,6 +61,9 @@ class JobRunner {
   struct Counts {
     std::size_t queued = 0;
     std::size_t running = 0;
+    /// For how long nothing was heard of the job that has been silent longest: of a running one since its last report, of the queue
+    /// since a job was last taken from it.
+    Clock::duration silence{};
   };
   [[nodiscard]] Counts counts() const;
 
@@ -69,6 +72,7 @@ class JobRunner {
     std::string key;
     JobStatus status;
     std::stop_source stop;
+    Clock::time_point heard_of{};  ///< when it was queued, taken up, or reported last
   };
   using JobPointer = std::shared_ptr<Job>;
 
@@ -84,6 +88,7 @@ class JobRunner {
   std::deque<JobPointer> queue_;
   std::unordered_map<std::string, JobPointer> active_;
   std::vector<JobPointer> running_;  ///< includes cancelled ones that have not returned yet
+  Clock::time_point queue_moved_{};  ///< when a job was last taken from it, or came while it was empty
   bool stopping_ = false;
   std::vector<std::jthread> workers_;
 };

@@ -1,8 +1,6 @@
 // The server: options, store, engine, routes, signals.
 #include <malloc.h>
 #include <pthread.h>
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -10,11 +8,17 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string_view>
 #include <thread>
 
+#include "server/check_command.h"
+#include "server/event_log.h"
 #include "server/http_server.h"
+#include "server/keys_command.h"
+#include "server/operations.h"
 #include "server/options.h"
 #include "server/preparation_process.h"
 #include "server/real_engine.h"
@@ -28,23 +32,17 @@ namespace {
 
 constexpr std::chrono::milliseconds stop_deadline{2000};
 
-void set_up_log(const std::string& level) {
-  auto logger = spdlog::stderr_logger_mt("server");
-  logger->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ level=%l %v", spdlog::pattern_time_type::utc);
-  logger->set_level(spdlog::level::from_str(level));
-  logger->flush_on(spdlog::level::trace);
-  spdlog::set_default_logger(logger);
-}
-
-ShapeServiceSettings shape_settings(const ServerOptions& options) {
+ShapeServiceSettings shape_settings(const ServerOptions& options, Metrics& metrics) {
   return {.workers = static_cast<std::size_t>(options.workers),
           .max_queued = static_cast<std::size_t>(options.max_queued_jobs),
           .cache_bytes = static_cast<std::size_t>(options.shape_cache_mib) << 20,
-          .read_limits = {.max_vertices = options.max_vertices}};
+          .read_limits = {.max_vertices = options.max_vertices},
+          .on_stage = [&metrics](std::string_view stage, double seconds) { metrics.stage_finished(stage, seconds); }};
 }
 
-MatchServiceSettings match_settings(const ServerOptions& options) {
-  return {.memory_bytes = static_cast<std::size_t>(options.match_cache_mib) << 20};
+MatchServiceSettings match_settings(const ServerOptions& options, Metrics& metrics) {
+  return {.memory_bytes = static_cast<std::size_t>(options.match_cache_mib) << 20,
+          .observe = [&metrics](MatchSource source, double seconds) { metrics.match_finished(to_string(source), seconds); }};
 }
 
 MatchJobsSettings job_settings(const ServerOptions& options) { return {.workers = static_cast<std::size_t>(options.concurrent_matches)}; }
@@ -95,7 +93,7 @@ void end_after_deadline(const std::stop_token& stopped_in_time) {
     if (stopped_in_time.stop_requested()) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  spdlog::warn("event=stop_deadline_passed");
+  log_warning("stop_deadline_passed");
   std::_Exit(0);
 }
 
@@ -103,35 +101,44 @@ int serve(const ServerOptions& options) {
   return_memory_early();
   raise_descriptor_limit();
   const sigset_t signals = block_stop_signals();
+  Access access(options.keys.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.keys));
   ShapeStore store(options.store);
   const RealEngine engine(options.threads);
-  ShapeService shapes(store, engine, shape_settings(options));
+  Operations operations(access, store, SPHEREMATCH_VERSION, engine.version());
+  ShapeService shapes(store, engine, shape_settings(options, operations.metrics()));
   Gate matches("matches", static_cast<std::size_t>(options.concurrent_matches), static_cast<std::size_t>(options.waiting_matches));
   Gate uploads("uploads", static_cast<std::size_t>(options.concurrent_uploads), waiting_uploads);
   std::stop_source stop;
   MatchStore match_store(store, static_cast<std::size_t>(options.match_store_mib) << 20);
-  MatchService match_service(shapes, match_store, engine, matches, stop.get_token(), match_settings(options));
+  MatchService match_service(shapes, match_store, engine, matches, stop.get_token(), match_settings(options, operations.metrics()));
   JobStore jobs(store);
   MatchJobs match_jobs(jobs, shapes, match_service, job_settings(options));
   const ServerContext context{options, SPHEREMATCH_VERSION, engine, shapes, matches, match_service, match_jobs, jobs, stop.get_token()};
   Router router;
+  operations.add_to(router, context);
   add_system_routes(router, context);
   add_shape_routes(router, context);
   add_match_routes(router, context);
   add_match_post_routes(router, context);
   add_job_routes(router, context);
   add_docs_routes(router);
-  HttpServer server(router, uploads, http_settings(options));
+  HttpServerSettings settings = http_settings(options);
+  operations.add_to(settings);
+  HttpServer server(router, uploads, settings);
   const int port = server.bind(options.host, options.port);
 
   const bool is_ipv6 = options.host.find(':') != std::string::npos;
   std::cout << "listening on http://" << (is_ipv6 ? "[" + options.host + "]" : options.host) << ":" << port << std::endl;
-  spdlog::info("event=started port={} store={} engine={} threads={}", port, options.store, engine.version(), options.threads);
+  log_info("started", {{"version", SPHEREMATCH_VERSION},
+                       {"port", port},
+                       {"store", options.store},
+                       {"engine", engine.version()},
+                       {"threads", options.threads}});
   std::jthread serving([&server] { server.run(); });
 
   int signal = 0;
   sigwait(&signals, &signal);
-  spdlog::info("event=stopping signal={}", signal);
+  log_info("stopping", {{"signal", signal}});
   std::jthread watchdog(end_after_deadline);
   stop.request_stop();
   matches.close();
@@ -141,7 +148,7 @@ int serve(const ServerOptions& options) {
   shapes.stop();
   serving.join();
   watchdog.request_stop();
-  spdlog::info("event=stopped");
+  log_info("stopped");
   return 0;
 }
 
@@ -153,10 +160,12 @@ int main(int argc, char** argv) {
   if (argc == 3 && argv[1] == std::string_view(spherematch::preparation_argument)) {
     return spherematch::prepare_for_server(STDIN_FILENO, std::max(1, std::atoi(argv[2])));
   }
-  const auto [options, exit_code] = spherematch::parse_options(argc, argv, SPHEREMATCH_VERSION);
+  if (argc >= 2 && argv[1] == std::string_view(spherematch::keys_argument)) return spherematch::keys_command(argc - 1, argv + 1);
+  const auto [options, check, exit_code] = spherematch::parse_options(argc, argv, SPHEREMATCH_VERSION);
   if (exit_code) return *exit_code;
+  if (check) return spherematch::check_command(options.host, options.port);
   try {
-    spherematch::set_up_log(options.log_level);
+    spherematch::set_up_log(options.log_level, options.log_format);
     return spherematch::serve(options);
   } catch (const std::exception& error) {
     std::cerr << "spherematch-server: " << error.what() << "\n";

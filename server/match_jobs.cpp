@@ -1,12 +1,13 @@
 #include "server/match_jobs.h"
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <random>
 #include <utility>
 
 #include "api/json.h"
+#include "server/event_log.h"
 #include "server/match_query.h"
 #include "server/problem.h"
 
@@ -61,7 +62,7 @@ std::string MatchJobs::create(const api::MatchRequest& request) {
   const std::string id = random_id();
   store_.create(id, options, pairs, settings_.keep_finished);
   add(id, options, 0);
-  spdlog::info("event=match_job_created job={} pairs={}", id, pairs.size());
+  log_info("match_job_created", {{"job", id}, {"pairs", pairs.size()}});
   return id;
 }
 
@@ -120,7 +121,7 @@ bool MatchJobs::cancel(std::string_view id) {
     std::erase_if(active_, [id](const ActivePointer& job) { return job->id == id; });
   }
   changed_.notify_all();
-  spdlog::info("event=match_job_cancelled job={}", id);
+  log_info("match_job_cancelled", {{"job", id}});
   return true;
 }
 
@@ -173,7 +174,7 @@ void MatchJobs::work_loop() {
       if (first) store_.mark_started(job->id);
       outcome = run(*job, pair);
     } catch (const std::exception& error) {
-      spdlog::error("event=match_job_pair_not_stored job={} detail=\"{}\"", job->id, error.what());
+      log_error("match_job_pair_not_stored", {{"job", job->id}, {"detail", error.what()}});
     }
     settle(job, pair, outcome);
   }
@@ -215,7 +216,7 @@ void MatchJobs::settle(const ActivePointer& job, const JobPair& pair, Outcome ou
   }
   work_.notify_one();
   changed_.notify_all();
-  if (ended) spdlog::info("event=match_job_finished job={}", job->id);
+  if (ended) log_info("match_job_finished", {{"job", job->id}});
 }
 
 api::PairResult MatchJobs::result_of(const JobPair& pair, const MatchJobOptions& options) {

@@ -1,12 +1,11 @@
 #include "server/match_service.h"
 
-#include <spdlog/spdlog.h>
-
 #include <chrono>
 #include <exception>
 #include <optional>
 #include <span>
 
+#include "server/event_log.h"
 #include "server/memory_size.h"
 #include "server/parameters_json.h"
 #include "server/problem.h"
@@ -67,8 +66,7 @@ MatchAnswer MatchService::get(const MatchQuery& query, Cache cache, Urgency urge
   MatchAnswer found = answer(query, cache, urgency);
   const double seconds = seconds_since(started);
   // Only now, when the result is kept: a server that ends before computes it again, and after not.
-  if (found.source == MatchSource::computed)
-    spdlog::info("event=match_computed src={} tgt={} seconds={:.3f}", query.src, query.tgt, seconds);
+  if (found.source == MatchSource::computed) log_info("match_computed", {{"src", query.src}, {"tgt", query.tgt}, {"seconds", seconds}});
   if (settings_.observe) settings_.observe(found.source, seconds);
   return found;
 }
@@ -158,7 +156,7 @@ void MatchService::keep(const std::string& key, const MatchQuery& query, const M
     store_.save(key, query.src, query.tgt, engine_.version(), *result);
   } catch (const StorageError& error) {
     // The answer is there; only the next one has to be computed again.
-    spdlog::warn("event=match_not_stored key={} detail=\"{}\"", key, error.what());
+    log_warning("match_not_stored", {{"key", key}, {"detail", error.what()}});
   }
 }
 

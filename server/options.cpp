@@ -7,6 +7,8 @@
 #include <iostream>
 #include <thread>
 
+#include "server/config_file.h"
+
 namespace spherematch {
 
 namespace {
@@ -14,17 +16,16 @@ namespace {
 /// Every flag has an environment variable of the same name and shows its default.
 template <typename Value>
 CLI::Option* add_flag(CLI::App& app, const std::string& name, Value& value, const std::string& description) {
-  std::string variable = "SPHEREMATCH_";
-  for (const char c : name) variable.push_back(c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c))));
-  return app.add_option("--" + name, value, description)->envname(variable)->capture_default_str();
+  return app.add_option("--" + name, value, description)->envname(variable_of(name))->capture_default_str();
 }
 
-void describe(CLI::App& app, ServerOptions& o) {
+void describe(CLI::App& app, ServerOptions& o, std::string& log_format) {
   add_flag(app, "host", o.host, "Address to listen on");
   add_flag(app, "port", o.port, "Port to listen on; 0 takes a free one")->check(CLI::Range(0, 65535));
   add_flag(app, "store", o.store, "SQLite file that keeps the shapes; made where missing");
-  app.add_flag("--insecure", o.insecure, "Allow an address that other machines can reach; there are no keys yet")
-      ->envname("SPHEREMATCH_INSECURE");
+  app.add_flag("--insecure", o.insecure, "Allow an address that other machines can reach without --keys")->envname(variable_of("insecure"));
+  add_flag(app, "keys", o.keys, "File of API keys (see spherematch-server keys --help); without one everybody may do everything")
+      ->type_name("FILE");
   add_flag(app, "workers", o.workers, "Shapes prepared at once")->check(CLI::Range(1, 64));
   add_flag(app, "threads", o.threads, "Threads of one preparation or one match")->check(CLI::Range(1, 256));
   add_flag(app, "max-body-mib", o.max_body_mib, "Largest upload in MiB")->check(CLI::Range(1, 900));
@@ -37,8 +38,14 @@ void describe(CLI::App& app, ServerOptions& o) {
   add_flag(app, "shape-cache-mib", o.shape_cache_mib, "Memory for prepared shapes in MiB")->check(CLI::Range(0, 1'000'000));
   add_flag(app, "match-cache-mib", o.match_cache_mib, "Memory for results of matches in MiB")->check(CLI::Range(0, 1'000'000));
   add_flag(app, "match-store-mib", o.match_store_mib, "Space in the store for results of matches in MiB")->check(CLI::Range(0, 1'000'000));
+  add_flag(app, "min-free-mib", o.min_free_mib, "Free space on the store's disk below which /readyz fails, in MiB")
+      ->check(CLI::Range(0, 100'000'000));
+  add_flag(app, "stall-seconds", o.stall_seconds, "Silence of a preparation or a match after which /readyz fails")
+      ->check(CLI::Range(1, 1'000'000));
   add_flag(app, "log-level", o.log_level, "Least level logged to standard error")
       ->check(CLI::IsMember({"debug", "info", "warn", "error", "off"}));
+  add_flag(app, "log-format", log_format, "How a line of the log is written")->check(CLI::IsMember({"text", "json"}));
+  add_config_file(app);
 }
 
 }  // namespace
@@ -51,8 +58,13 @@ ParsedOptions parse_options(int argc, const char* const* argv, const std::string
   options.concurrent_matches = std::min(cores, 16);
 
   CLI::App app("Dense correspondence between genus-zero surfaces over HTTP. GET / names what the server offers.", "spherematch-server");
+  app.footer("spherematch-server keys --help: how to make keys. A flag stands before its variable, that before the file of --config.");
   app.set_version_flag("--version", version);
-  describe(app, options);
+  std::string log_format = "text";
+  app.add_flag("--check", parsed.check,
+               "Start nothing: ask the server that runs on --port for /readyz, print the answer, and end with 0 if it is ready")
+      ->configurable(false);
+  describe(app, options, log_format);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -60,9 +72,10 @@ ParsedOptions parse_options(int argc, const char* const* argv, const std::string
     parsed.exit_code = code == 0 ? 0 : 2;
     return parsed;
   }
-  if (!options.insecure && !is_loopback(options.host)) {
+  options.log_format = log_format == "json" ? LogFormat::json : LogFormat::text;
+  if (!parsed.check && options.keys.empty() && !options.insecure && !is_loopback(options.host)) {
     std::cerr << "spherematch-server: --host " << options.host
-              << " lets other machines in, and there are no keys yet; add --insecure if that is meant\n";
+              << " lets other machines in, and everybody may do everything; give --keys FILE, or --insecure if that is meant\n";
     parsed.exit_code = 2;
   }
   return parsed;

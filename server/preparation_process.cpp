@@ -13,6 +13,7 @@
 #include <stop_token>
 #include <utility>
 
+#include "server/descriptor.h"
 #include "server/engine_port.h"
 #include "server/preparation_messages.h"
 #include "storage/blob_codec.h"
@@ -21,24 +22,6 @@
 namespace spherematch {
 
 namespace {
-
-/// Owns a file descriptor.
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Descriptor& operator=(Descriptor&&) = delete;
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-
-  [[nodiscard]] int get() const { return fd_; }
-
- private:
-  int fd_;
-};
 
 /// Two ends of a new connection.
 std::pair<Descriptor, Descriptor> connection() {

@@ -14,6 +14,7 @@
 #include "engine/engine.h"
 #include "server/preparation_messages.h"
 #include "server/preparation_process.h"
+#include "server/priority.h"
 #include "storage/blob_codec.h"
 
 namespace spherematch {
@@ -81,6 +82,7 @@ void send_result(int socket, const PreprocessedShape& shape) {
 
 int prepare_for_server(int socket, int threads) {
   be_modest_with_memory();
+  be_nice(preparation_niceness);
   std::mutex mutex;
   try {
     const auto message = receive_message(socket);

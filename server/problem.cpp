@@ -1,10 +1,9 @@
 #include "server/problem.h"
 
-#include <spdlog/spdlog.h>
-
 #include <new>
 
 #include "api/json.h"
+#include "server/event_log.h"
 
 namespace spherematch {
 
@@ -31,7 +30,7 @@ api::Problem describe(const EngineError& error) {
 api::Problem describe(const StorageError& error) {
   const api::Code code = code_of(error.code());
   if (code == api::Code::internal) {
-    spdlog::error("event=storage_error detail=\"{}\"", error.what());
+    log_error("storage_error", {{"detail", error.what()}});
     return make_problem(code, "the store failed; the server's log says more");
   }
   return make_problem(code, error.what());
@@ -45,6 +44,7 @@ int retry_after_seconds(api::Code code) {
     case api::Code::cancelled:
       return 2;
     case api::Code::draining:
+    case api::Code::not_ready:
       return 5;
     default:
       return 0;
@@ -121,12 +121,12 @@ ProblemError problem_of(const std::exception_ptr& exception) {
   } catch (const StorageError& error) {
     return ProblemError(describe(error));
   } catch (const std::bad_alloc&) {
-    spdlog::error("event=out_of_memory");
+    log_error("out_of_memory");
     return {api::Code::overloaded, "not enough memory for this request now"};
   } catch (const std::exception& error) {
-    spdlog::error("event=unforeseen_error detail=\"{}\"", error.what());
+    log_error("unforeseen_error", {{"detail", error.what()}});
   } catch (...) {
-    spdlog::error("event=unforeseen_error");
+    log_error("unforeseen_error");
   }
   return {api::Code::internal, "the server failed; its log says more"};
 }

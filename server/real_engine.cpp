@@ -1,8 +1,11 @@
 #include "server/real_engine.h"
 
+#include <future>
+
 #include "engine/engine.h"
 #include "engine/io/mesh_reader.h"
 #include "server/preparation_process.h"
+#include "server/priority.h"
 
 namespace spherematch {
 
@@ -24,7 +27,13 @@ PreprocessedShape RealEngine::preprocess(Surface surface, const Progress& progre
 
 MatchResult RealEngine::match(const PreprocessedShape& source, const PreprocessedShape& target, const MatchParameters& parameters,
                               const Progress& progress) const {
-  return spherematch::match(source, target, parameters, progress, threads_);
+  // On a thread of its own, which can be nicer than the one that will write the response.
+  return std::async(std::launch::async,
+                    [&] {
+                      be_nice(match_niceness);
+                      return spherematch::match(source, target, parameters, progress, threads_);
+                    })
+      .get();
 }
 
 }  // namespace spherematch

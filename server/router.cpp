@@ -1,7 +1,6 @@
 #include "server/router.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "server/problem.h"
 
@@ -50,7 +49,17 @@ const Router::Route& Router::find(HttpRequest& request) const {
   throw ProblemError(problem, {{"Allow", allow}});
 }
 
+std::optional<HttpResponse> Router::refusal(const HttpRequest& request) const {
+  try {
+    if (guard_) guard_(request, pattern_of(request.path));
+    return std::nullopt;
+  } catch (...) {
+    return problem_response(problem_of(std::current_exception()), request.request_id);
+  }
+}
+
 HttpResponse Router::handle(HttpRequest& request, const ReadBody& read_body) const {
+  if (auto refused = refusal(request)) return *std::move(refused);
   try {
     const Route& route = find(request);
     if (route.body != Body::none) read_body(request, route.body);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,9 @@ enum class Body {
 /// Routes are added before the first request; after that every function is thread-safe.
 class Router {
  public:
+  /// Throws to refuse a request; `pattern` is as of pattern_of().
+  using Guard = std::function<void(const HttpRequest& request, std::string_view pattern)>;
+
   struct Route {
     std::string method;
     std::string pattern;  ///< for example "/shapes/{id}/sphere"; {id} stands for one segment of 1 to 128 bytes
@@ -29,6 +33,12 @@ class Router {
   };
 
   void add(std::string method, std::string pattern, Handler handler, Body body = Body::none);
+
+  /// Asked before everything else.
+  void set_guard(Guard guard) { guard_ = std::move(guard); }
+
+  /// What the guard has against the request, for those who must know before handle().
+  [[nodiscard]] std::optional<HttpResponse> refusal(const HttpRequest& request) const;
 
   /// Fills request.id. HEAD finds the GET route.
   /// @throws ProblemError(not_found), ProblemError(method_not_allowed) with an Allow header
@@ -49,6 +59,7 @@ class Router {
 
  private:
   std::vector<Route> routes_;
+  Guard guard_;
 };
 
 }  // namespace spherematch

@@ -1,5 +1,6 @@
 // What the server says of itself.
 #include "api/json.h"
+#include "engine/io/map_format.h"
 #include "server/parameters_json.h"
 #include "server/request_parameters.h"
 #include "server/server_context.h"
@@ -18,7 +19,7 @@ constexpr std::string_view start_page = R"(<!doctype html>
 <li><a href="/shapes">/shapes</a>: what is stored; POST a mesh here</li>
 <li>/shapes/{id}, /shapes/{id}/sphere: one shape, its spherical parametrisation</li>
 <li>/match?src={id}&amp;tgt={id}: the map from one shape to another</li>
-<li><a href="/healthz">/healthz</a>, <a href="/version">/version</a>: the server itself</li>
+<li><a href="/healthz">/healthz</a>, <a href="/readyz">/readyz</a>, <a href="/version">/version</a>, /metrics: the server itself</li>
 </ul>
 <pre>
 curl --data-binary @a.off 'SERVER/shapes?name=a&amp;wait=60'
@@ -57,8 +58,17 @@ HttpResponse get_version(const ServerContext& context, const HttpRequest& reques
                                   .queued_jobs = options.max_queued_jobs,
                                   .concurrent_matches = options.concurrent_matches,
                                   .waiting_matches = options.waiting_matches,
+                                  .concurrent_uploads = options.concurrent_uploads,
+                                  .workers = options.workers,
+                                  .threads = options.threads,
+                                  .shape_cache_bytes = static_cast<std::int64_t>(options.shape_cache_mib) << 20,
+                                  .match_cache_bytes = static_cast<std::int64_t>(options.match_cache_mib) << 20,
+                                  .match_store_bytes = static_cast<std::int64_t>(options.match_store_mib) << 20,
                                   .wait_seconds = static_cast<std::int64_t>(max_wait_seconds)},
+                       .mesh_formats = {"off", "obj", "ply", "stl", "gltf", "glb"},
+                       .match_formats = {"json"},
                        .parameters = api::Json::object()};
+  for (const std::string_view format : map_format_names()) version.match_formats.emplace_back(format);
   version.parameters["preprocess"] = to_json(PreprocessParameters{});
   version.parameters["match"] = to_json(MatchParameters{});
   version.parameters["match_paper"] = to_json(MatchParameters::paper());

@@ -1,12 +1,11 @@
 #include "server/shape_service.h"
 
-#include <spdlog/spdlog.h>
-
 #include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <set>
 
+#include "server/event_log.h"
 #include "server/memory_size.h"
 #include "server/problem.h"
 #include "server/shape_json.h"
@@ -61,7 +60,7 @@ class StageLog {
                   inner_.report(stage, fraction);
                   const std::lock_guard lock(mutex_);
                   if (!seen_.emplace(stage).second) return;
-                  spdlog::info("event=stage_started shape={} stage={} seconds={:.3f}", id_, stage, seconds_since(started_));
+                  log_info("stage_started", {{"shape", id_}, {"stage", stage}, {"seconds", seconds_since(started_)}});
                 },
             .stop = inner_.stop};
   }
@@ -73,12 +72,6 @@ class StageLog {
   std::mutex mutex_;
   std::set<std::string, std::less<>> seen_;
 };
-
-std::string text_of(const StageSeconds& seconds) {
-  std::string text;
-  for (const auto& [stage, value] : seconds) text += fmt::format(" {}={:.3f}", stage, value);
-  return text;
-}
 
 }  // namespace
 
@@ -132,7 +125,7 @@ void ShapeService::remove(const std::string& id) {
   cache_.erase(id);
   // Who uploads the same bytes between the first two steps finds the old job active, and it is that one which was cancelled.
   if (store_.find(id)) jobs_.submit(id, /*beyond_limit=*/true);
-  spdlog::info("event=shape_removed shape={}", id);
+  log_info("shape_removed", {{"shape", id}});
 }
 
 void ShapeService::require_known(const std::string& id) const { (void)record_of(id); }
@@ -143,7 +136,7 @@ void ShapeService::cancel_preparation(const std::string& id) {
     throw ProblemError(api::Code::job_finished, "the preparation has ended; DELETE /shapes/" + id + " removes the shape");
   }
   jobs_.cancel(id);
-  spdlog::info("event=preparation_cancelled shape={}", id);
+  log_info("preparation_cancelled", {{"shape", id}});
 }
 
 void ShapeService::require_usable(const std::string& id) const {
@@ -182,7 +175,7 @@ ShapePointer ShapeService::load(const std::string& id) {
   } catch (const StorageError& error) {
     if (error.code() != StorageErrorCode::corrupt_blob && error.code() != StorageErrorCode::unknown_version) throw;
     // The upload and its surface are blobs of their own, so what was derived from them can be made again.
-    spdlog::warn("event=prepared_shape_unreadable shape={} detail=\"{}\"", id, error.what());
+    log_warning("prepared_shape_unreadable", {{"shape", id}, {"detail", error.what()}});
     require_room();
     if (store_.requeue(id)) submit(id);
     throw not_ready(id);
@@ -229,7 +222,7 @@ JobRunner::Outcome ShapeService::prepare(const std::string& id, const Progress& 
     if (!progress.stop.stop_requested()) return record_failure(id, progress, std::current_exception());
   }
   // Removed, or the server stops: then it stays unfinished in the store and is taken up again at the next start.
-  spdlog::info("event=job_cancelled shape={}", id);
+  log_info("job_cancelled", {{"shape", id}});
   return JobRunner::Outcome::done;
 }
 
@@ -238,13 +231,18 @@ void ShapeService::compute(const std::string& id, const Progress& progress) {
   if (!record || (record->state == ShapeState::ready && record->engine == engine_.version())) return;
   store_.mark_processing(id);
   const auto started = Clock::now();
-  spdlog::info("event=job_started shape={} vertices={}", id, record->vertices);
+  log_info("job_started", {{"shape", id}, {"vertices", record->vertices}});
   StageLog stages(id, progress);
   const auto shape = std::make_shared<const PreprocessedShape>(engine_.preprocess(store_.load_surface(id), stages.progress()));
   progress.check();
   const bool saved = store_.save_prepared(id, *shape);
   if (saved) cache_.put(id, shape, memory_size(*shape));
-  spdlog::info("event=job_finished shape={} saved={} seconds={:.3f}{}", id, saved, seconds_since(started), text_of(shape->seconds));
+  for (const auto& [stage, seconds] : shape->seconds) {
+    if (settings_.on_stage) settings_.on_stage(stage, seconds);
+  }
+  std::vector<LogField> fields{{"shape", id}, {"saved", saved}, {"seconds", seconds_since(started)}};
+  for (const auto& [stage, seconds] : shape->seconds) fields.emplace_back(stage, seconds);
+  log_info("job_finished", fields);
 }
 
 JobRunner::Outcome ShapeService::record_failure(const std::string& id, const Progress& progress, const std::exception_ptr& exception) {
@@ -255,7 +253,7 @@ JobRunner::Outcome ShapeService::record_failure(const std::string& id, const Pro
         problem.code == api::Code::internal || problem.code == api::Code::overloaded || problem.code == api::Code::insufficient_storage;
     const int attempt = lost ? store_.count_lost_attempt(id) : max_attempts;
     const std::string_view code = api::entry_of(problem.code).wire;
-    spdlog::warn("event=job_failed shape={} code={} attempt={} detail=\"{}\"", id, code, attempt, problem.detail);
+    log_warning("job_failed", {{"shape", id}, {"code", code}, {"attempt", attempt}, {"detail", problem.detail}});
     if (attempt == 0) return JobRunner::Outcome::done;  // removed meanwhile
     if (attempt < max_attempts) {
       pause(progress.stop, settings_.pause_after_loss);
@@ -263,7 +261,7 @@ JobRunner::Outcome ShapeService::record_failure(const std::string& id, const Pro
     }
     store_.mark_failed(id, code, problem.detail);
   } catch (const std::exception& error) {
-    spdlog::error("event=failure_not_stored shape={} detail=\"{}\"", id, error.what());
+    log_error("failure_not_stored", {{"shape", id}, {"detail", error.what()}});
   }
   return JobRunner::Outcome::done;
 }

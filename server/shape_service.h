@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +26,8 @@ struct ShapeServiceSettings {
   std::size_t cache_bytes = std::size_t{256} << 20;
   std::chrono::milliseconds pause_after_loss{1000};  ///< of a worker whose preparation was lost: what it lacked may come back
   ReadLimits read_limits;
+  /// Called for every stage of a finished preparation, from any worker.
+  std::function<void(std::string_view stage, double seconds)> on_stage{};
 };
 
 using ShapePointer = std::shared_ptr<const PreprocessedShape>;
@@ -75,6 +78,7 @@ class ShapeService {
   void cancel_preparation(const std::string& id);
 
   [[nodiscard]] JobRunner::Counts job_counts() const { return jobs_.counts(); }
+  [[nodiscard]] std::size_t cache_bytes() const { return cache_.bytes(); }
 
   /// Cancels the jobs and wakes all waiters; returns when the workers are idle.
   void stop();

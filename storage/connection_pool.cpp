@@ -14,9 +14,8 @@ ConnectionPool::Lease::Lease(ConnectionPool& pool, std::unique_ptr<SQLite::Datab
 
 ConnectionPool::Lease::~Lease() {
   // A connection whose rollback failed is closed instead of lent again.
-  if (sqlite3_get_autocommit(connection_->getHandle()) == 0) return;
-  const std::lock_guard lock(pool_.free_mutex_);
-  pool_.free_.push_back(std::move(connection_));
+  if (sqlite3_get_autocommit(connection_->getHandle()) == 0) connection_.reset();
+  pool_.take_back(std::move(connection_));
 }
 
 ConnectionPool::ConnectionPool(std::filesystem::path file, std::chrono::milliseconds busy_timeout)
@@ -31,14 +30,30 @@ ConnectionPool::~ConnectionPool() = default;
 
 ConnectionPool::Lease ConnectionPool::lease() {
   {
-    const std::lock_guard lock(free_mutex_);
+    std::unique_lock lock(free_mutex_);
+    returned_.wait(lock, [this] { return leased_ < max_connections; });
+    ++leased_;
     if (!free_.empty()) {
       auto connection = std::move(free_.back());
       free_.pop_back();
       return {*this, std::move(connection)};
     }
   }
-  return {*this, open()};
+  try {
+    return {*this, open()};
+  } catch (...) {
+    take_back(nullptr);
+    throw;
+  }
+}
+
+void ConnectionPool::take_back(std::unique_ptr<SQLite::Database> connection) {
+  {
+    const std::lock_guard lock(free_mutex_);
+    --leased_;
+    if (connection) free_.push_back(std::move(connection));
+  }
+  returned_.notify_one();
 }
 
 std::unique_ptr<SQLite::Database> ConnectionPool::open() const {

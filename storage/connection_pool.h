@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -13,6 +14,8 @@ namespace spherematch {
 
 class ConnectionPool {
  public:
+  static constexpr std::size_t max_connections = 16;
+
   /// One connection, back in the pool when it is destroyed. Must not outlive the pool.
   class Lease {
    public:
@@ -35,7 +38,8 @@ class ConnectionPool {
   ConnectionPool(const ConnectionPool&) = delete;
   ConnectionPool& operator=(const ConnectionPool&) = delete;
 
-  /// A free connection or a new one: as many come to exist as threads ever work at once.
+  /// A free connection or a new one. Beyond `max_connections` it waits for one to come back: many threads at once would spend more
+  /// time on opening connections than on their work. A thread that holds a lease must not ask for another.
   /// @throws SQLite::Exception
   [[nodiscard]] Lease lease();
 
@@ -43,12 +47,16 @@ class ConnectionPool {
   [[nodiscard]] std::mutex& write_mutex() { return write_mutex_; }
 
  private:
+  /// A null pointer takes nothing back but the right to be one of them.
+  void take_back(std::unique_ptr<SQLite::Database> connection);
   [[nodiscard]] std::unique_ptr<SQLite::Database> open() const;
 
   std::filesystem::path file_;
   std::chrono::milliseconds busy_timeout_;
   std::mutex free_mutex_;
+  std::condition_variable returned_;
   std::vector<std::unique_ptr<SQLite::Database>> free_;
+  std::size_t leased_ = 0;
   std::mutex write_mutex_;
 };
 

@@ -65,6 +65,15 @@ Sequence parse_cursor(const std::optional<std::string>& cursor) {
 
 }  // namespace
 
+void ShapeStore::check_writable() {
+  write(*pool_, [](SQLite::Database& database) {
+    // Writing the version again touches the first page of the file, and so everything that a commit needs.
+    const int version = database.execAndGet("PRAGMA user_version").getInt();
+    database.exec("PRAGMA user_version = " + std::to_string(version));
+    return true;
+  });
+}
+
 std::string_view to_string(ShapeState state) {
   switch (state) {
     case ShapeState::queued:

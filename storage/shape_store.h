@@ -114,6 +114,9 @@ class ShapeStore {
   /// Bit for bit what save_prepared() got. @throws StorageError(not_found) also when the shape is not ready
   [[nodiscard]] std::shared_ptr<const PreprocessedShape> load_prepared(std::string_view id) const;
 
+  /// Makes a write that changes nothing and is on the disk when this returns: whether the store takes writes.
+  void check_writable();
+
   /// For the other stores on the same file.
   [[nodiscard]] const std::shared_ptr<ConnectionPool>& pool() const { return pool_; }
 

@@ -84,15 +84,23 @@ TEST(Json, RoundTrips) {
 
   const Health health{"draining", 1, 2, 3, 4};
   EXPECT_EQ(from_text<Health>(to_text(to_json(health))), health);
-  Version version{"0.1", "7", {1, 2, 3, 4, 5, 6}, Json::object()};
+  Version version{"0.1", "7", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, {"off", "ply"}, {"json"}, Json::object()};
   version.parameters["match"] = {{"max_candidates", 4}};
   EXPECT_EQ(from_text<Version>(to_text(to_json(version))), version);
+  const Readiness readiness{{{"store", true, "a write took 1 ms"}, {"disk", true, "9 MiB are free"}}};
+  EXPECT_EQ(from_text<Readiness>(to_text(to_json(readiness))), readiness);
+  Problem not_ready;
+  not_ready.code = Code::not_ready;
+  not_ready.detail = "store: it is gone";
+  not_ready.checks = {{"store", false, "it is gone"}, {"disk", true, "9 MiB are free"}};
+  EXPECT_EQ(from_text<Problem>(to_text(to_json(not_ready))), not_ready);
 }
 
 TEST(Json, ProblemHasTheMembersOfRfc9457AndOurs) {
   const Json json = to_json(sample_problem());
   EXPECT_EQ(json["type"], "/problems/not-closed");
   EXPECT_EQ(json["status"], 422);
+  EXPECT_FALSE(json.contains("checks"));
   EXPECT_EQ(json["instance"], "/requests/abc-1");
   EXPECT_EQ(json["code"], "not-closed");
   EXPECT_EQ(json["retryable"], false);
@@ -195,6 +203,12 @@ TEST(Json, AProblemMustAgreeWithItsCode) {
   EXPECT_EQ(problem([](Json& j) { j["elements"] = Json::array({{{"edge", {1}}}}); }), "elements[0].edge: must have 2 elements");
   EXPECT_EQ(problem([](Json& j) { j["elements"] = Json::array({{{"line", 1}}}); }), "elements[0].edge: is missing");
   EXPECT_EQ(problem([](Json& j) { j["elements"] = Json(std::vector<Json>(21, Json{{"vertex", 1}})); }), "elements: more than 20 elements");
+}
+
+TEST(Json, ReadinessIsStrict) {
+  EXPECT_THROW((void)from_text<Readiness>(R"({"status":"ok","checks":[]})"), JsonError);
+  EXPECT_THROW((void)from_text<Readiness>(R"({"status":"ready","checks":[{"name":"a","ok":1,"detail":""}]})"), JsonError);
+  EXPECT_THROW((void)from_text<Readiness>(R"({"status":"ready","checks":[{"name":"a","ok":true,"detail":"","x":1}]})"), JsonError);
 }
 
 TEST(Json, TextThatIsNotJsonIsRefused) {

@@ -50,9 +50,11 @@ LIBRARIES = (
     Library("spdlog", r"(spdlog|fmt)/.*", ("server", "client"), everywhere=True),
     Library("CLI11", r"CLI/.*", ("server", "cli"), everywhere=True),
     Library("SQLite", r"sqlite3\.h|SQLiteCpp/.*", ("storage",)),
-    Library("OpenSSL", r"openssl/.*", ("storage",)),
+    # Hashes of uploads, and of keys.
+    Library("OpenSSL", r"openssl/.*", ("storage", "server"), toolbox=True),
     Library("zstd", r"zstd\.h", ("storage",)),
     Library("xxHash", r"xxhash\.h", ("storage",)),
+    Library("prometheus-cpp", r"prometheus/.*", ("server",)),
     Library("tinygltf", r"tiny_gltf\.h", ("engine/io",)),
     Library("libzip", r"zip\.h", ("engine/io",)),
     Library("libpng", r"png\.h", ("engine/io",)),

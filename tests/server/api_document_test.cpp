@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "server/routes_operations.h"
 #include "tests/server/test_service.h"
 
 namespace spherematch {
@@ -17,6 +18,13 @@ TEST(ApiDocument, YamlKeepsItsTypesAndItsOrder) {
 
 class ApiDocumentTest : public testing::TestService {
  protected:
+  ApiDocumentTest() {
+    add_metrics_route(*router, metrics, [] { return MetricsSnapshot{}; });
+    add_readiness_route(*router, readiness);
+  }
+
+  Metrics metrics{"1.2.3", "stub-1"};
+  Readiness readiness;
   Json document = json_of_yaml(api_document_text());
 };
 

@@ -26,6 +26,18 @@ void wait_until_waiting(const Gate& gate, std::size_t count) {
   while (gate.counts().waiting != count) std::this_thread::yield();
 }
 
+TEST(Gate, KnowsHowLongTheFirstHasBeenInside) {
+  Gate gate("things", 2, 0);
+  EXPECT_EQ(gate.counts().longest, Gate::Clock::duration{});
+  std::optional<Gate::Permit> first(gate.enter());
+  std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  const Gate::Permit second = gate.enter();
+  EXPECT_GE(gate.counts().longest, std::chrono::milliseconds(30));
+  const auto since_second = Gate::Clock::now();
+  first.reset();
+  EXPECT_LT(gate.counts().longest, Gate::Clock::now() - since_second + std::chrono::milliseconds(25));
+}
+
 TEST(Gate, NeverLetsInMoreThanItsSlots) {
   Gate gate("things", 3, 100);
   std::atomic<int> inside = 0;

@@ -10,10 +10,12 @@
 
 #include <atomic>
 #include <latch>
+#include <mutex>
 #include <thread>
 
 #include "api/json.h"
 #include "server/body_reader.h"
+#include "server/problem.h"
 
 namespace spherematch {
 namespace {
@@ -401,6 +403,41 @@ TEST_F(HttpServerTest, AStopAtAnyMomentEndsIt) {
     stop();
     server.reset();
   }
+}
+
+TEST_F(HttpServerTest, EveryAnswerIsReportedWithItsPattern) {
+  std::mutex mutex;
+  std::vector<std::string> reports;
+  HttpServerSettings settings{.max_body_bytes = max_body, .threads = 4, .max_connections = 8};
+  settings.on_request = [&](const FinishedRequest& request) {
+    EXPECT_GE(request.seconds, 0);
+    EXPECT_LT(request.seconds, 10);
+    const std::lock_guard lock(mutex);
+    reports.push_back(std::string(request.method) + " " + std::string(request.route) + " " + std::to_string(request.status));
+  };
+  start(settings);
+  EXPECT_TRUE(client().Get("/hello"));
+  EXPECT_TRUE(client().Delete("/things/secret"));
+  EXPECT_TRUE(client().Get("/nowhere"));
+  EXPECT_EQ(status_of(raw("POST /upload HTTP/1.1\r\n\r\n")), 411);
+  stop();
+  EXPECT_EQ(reports, (std::vector<std::string>{"GET /hello 200", "DELETE /things/{id} 204", "GET - 404", "POST /upload 411"}));
+}
+
+TEST_F(HttpServerTest, AGuardRefusesBeforeTheBody) {
+  router.set_guard([](const HttpRequest& request, std::string_view pattern) {
+    if (pattern == "/upload" && request.header("x-api-key") != "right") throw ProblemError(api::Code::unauthorized, "no");
+  });
+  start();
+  const auto ask = [this](const std::string& headers) { return raw("POST /upload HTTP/1.1\r\n" + headers + "\r\n"); };
+  EXPECT_EQ(status_of(ask("Content-Length: 100\r\n")), 401);
+  EXPECT_EQ(status_of(ask("Content-Length: 100\r\nExpect: 100-continue\r\n")), 401);
+  EXPECT_EQ(status_of(ask("Content-Length: 99999999\r\n")), 401);
+  EXPECT_EQ(status_of(ask("")), 401);
+  EXPECT_EQ(status_of(ask("X-API-Key: right\r\n")), 411);
+  const auto answer = client().Post("/upload", httplib::Headers{{"X-API-Key", "right"}}, "body", "text/plain");
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 200);
 }
 
 TEST_F(HttpServerTest, APortIsNotShared) {

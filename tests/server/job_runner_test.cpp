@@ -86,6 +86,32 @@ TEST(JobRunner, TheQueueIsBounded) {
   EXPECT_TRUE(runner.wait("c", Clock::now() + 10s));
 }
 
+TEST(JobRunner, SilenceIsSinceTheLastReport) {
+  std::atomic<bool> talks = false;
+  std::atomic<bool> end = false;
+  JobRunner runner(
+      [&](const std::string&, const Progress& progress) {
+        while (!end) {
+          if (talks) progress.report("stage", 0.5);
+          std::this_thread::sleep_for(1ms);
+        }
+        return JobRunner::Outcome::done;
+      },
+      1, 10);
+  EXPECT_EQ(runner.counts().silence, JobRunner::Clock::duration{});
+  runner.submit("a");
+  while (runner.counts().silence < 50ms) std::this_thread::sleep_for(1ms);
+  talks = true;
+  while (runner.counts().silence >= 50ms) std::this_thread::sleep_for(1ms);
+  runner.submit("waits behind it");
+  talks = false;
+  while (runner.counts().silence < 50ms) std::this_thread::sleep_for(1ms);
+  end = true;
+  EXPECT_TRUE(runner.wait("waits behind it", Clock::now() + 10s));
+  while (runner.counts().running != 0) std::this_thread::sleep_for(1ms);
+  EXPECT_EQ(runner.counts().silence, JobRunner::Clock::duration{});
+}
+
 TEST(JobRunner, ProgressIsVisibleAndNeverFalls) {
   Door door;
   JobRunner runner(

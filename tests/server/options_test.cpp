@@ -1,8 +1,11 @@
 #include "server/options.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <vector>
 
 namespace spherematch {
@@ -14,8 +17,9 @@ ParsedOptions parse(std::vector<const char*> arguments) {
 }
 
 TEST(Options, Defaults) {
-  const auto [options, exit_code] = parse({});
+  const auto [options, check, exit_code] = parse({});
   EXPECT_EQ(exit_code, std::nullopt);
+  EXPECT_FALSE(check);
   EXPECT_EQ(options.host, "127.0.0.1");
   EXPECT_EQ(options.port, 8080);
   EXPECT_EQ(options.store, "data/spherematch.db");
@@ -35,13 +39,91 @@ TEST(Options, FlagsOverrideTheEnvironment) {
   unsetenv("SPHEREMATCH_MAX_BODY_MIB");
 }
 
+/// A configuration file, gone at the end.
+class ConfigFile {
+ public:
+  explicit ConfigFile(const std::string& text) { std::ofstream(path_) << text; }
+  ~ConfigFile() { std::filesystem::remove(path_); }
+  ConfigFile(const ConfigFile&) = delete;
+  ConfigFile& operator=(const ConfigFile&) = delete;
+  [[nodiscard]] const char* path() const { return path_.c_str(); }
+
+ private:
+  const std::string path_ = ::testing::TempDir() + "spherematch-options-" + std::to_string(::getpid()) + ".toml";
+};
+
+/// A variable of the environment, gone at the end.
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) { setenv(name, value, 1); }
+  ~Variable() { unsetenv(name_); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+};
+
+/// What is printed about arguments that end the program with 2.
+std::string complaint(const std::vector<const char*>& arguments) {
+  ::testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStdout();
+  EXPECT_EQ(parse(arguments).exit_code, 2);
+  return ::testing::internal::GetCapturedStderr() + ::testing::internal::GetCapturedStdout();
+}
+
+TEST(Options, FlagBeatsVariableBeatsFileBeatsDefault) {
+  const ConfigFile file("# a comment\nport = 1111\nworkers = 3   # of two\nstore = \"/a path/s.db\"\ninsecure = true\nlog-format = json\n");
+  const auto with_file = parse({"--config", file.path()});
+  ASSERT_EQ(with_file.exit_code, std::nullopt);
+  EXPECT_EQ(with_file.options.port, 1111);
+  EXPECT_EQ(with_file.options.workers, 3);
+  EXPECT_EQ(with_file.options.store, "/a path/s.db");
+  EXPECT_TRUE(with_file.options.insecure);
+  EXPECT_EQ(with_file.options.log_format, LogFormat::json);
+  EXPECT_EQ(with_file.options.waiting_matches, 16);
+  const Variable port("SPHEREMATCH_PORT", "2222");
+  const Variable insecure("SPHEREMATCH_INSECURE", "false");
+  EXPECT_EQ(parse({"--config", file.path()}).options.port, 2222);
+  EXPECT_FALSE(parse({"--config", file.path()}).options.insecure);
+  EXPECT_EQ(parse({"--config", file.path()}).options.workers, 3);
+  EXPECT_EQ(parse({"--config", file.path(), "--port", "3333"}).options.port, 3333);
+}
+
+TEST(Options, TheFileCanBeNamedByAVariableAndAFlagNamesAnother) {
+  const Variable variable("SPHEREMATCH_CONFIG", "/nowhere/spherematch.toml");
+  EXPECT_NE(complaint({}).find("/nowhere/spherematch.toml"), std::string::npos);
+  const ConfigFile file("port = 1111\n");
+  EXPECT_EQ(parse({"--config", file.path()}).options.port, 1111);
+  const Variable right("SPHEREMATCH_CONFIG", file.path());
+  EXPECT_EQ(parse({}).options.port, 1111);
+}
+
+TEST(Options, MistakesInTheFileAreErrors) {
+  EXPECT_NE(complaint({"--config", "/nowhere/s.toml"}).find("/nowhere/s.toml"), std::string::npos);
+  const auto complaint_about = [](const std::string& text) {
+    const ConfigFile file(text);
+    return complaint({"--config", file.path()});
+  };
+  EXPECT_NE(complaint_about("prot = 1\n").find("prot"), std::string::npos);
+  EXPECT_NE(complaint_about("max_body_mib = 1\n").find("max_body_mib"), std::string::npos);
+  EXPECT_NE(complaint_about("port = 65536\n").find("--port"), std::string::npos);
+  EXPECT_NE(complaint_about("port = 1\nport = 2\n").find("port"), std::string::npos);
+  EXPECT_NE(complaint_about("port = 1\nworkers = 1\nport = 2\n").find("port"), std::string::npos);
+  EXPECT_NE(complaint_about("[server]\nport = 1\n").find("section"), std::string::npos);
+  EXPECT_NE(complaint_about("store = /a path/s.db\n").find("store"), std::string::npos);
+  EXPECT_NE(complaint_about("store = \"/a#b.db\"\n").find("store"), std::string::npos);
+  EXPECT_NE(complaint_about("log-format = xml\n").find("log-format"), std::string::npos);
+  EXPECT_NE(complaint_about("config = other.toml\n").find("config"), std::string::npos);
+}
+
 TEST(Options, HelpNamesEveryFlagWithDefaultAndVariable) {
   ::testing::internal::CaptureStdout();
   const auto exit_code = parse({"--help"}).exit_code;
   const std::string help = ::testing::internal::GetCapturedStdout();
   EXPECT_EQ(exit_code, 0);
   for (const char* text : {"--port INT:INT in [0 - 65535]=8080 (Env:SPHEREMATCH_PORT)", "--host", "--store", "--workers", "--threads",
-                           "--insecure", "SPHEREMATCH_MAX_VERTICES", "SPHEREMATCH_LOG_LEVEL"}) {
+                           "--insecure", "--config FILE", "SPHEREMATCH_CONFIG", "SPHEREMATCH_MAX_VERTICES", "SPHEREMATCH_LOG_LEVEL"}) {
     EXPECT_NE(help.find(text), std::string::npos) << text;
   }
 }
@@ -55,6 +137,12 @@ TEST(Options, BadFlagsEndWithTwo) {
   EXPECT_EQ(parse({"--host", "0.0.0.0"}).exit_code, 2);
   EXPECT_NE(::testing::internal::GetCapturedStderr().find("--insecure"), std::string::npos);
   EXPECT_EQ(parse({"--host", "0.0.0.0", "--insecure"}).exit_code, std::nullopt);
+}
+
+TEST(Options, CheckNeedsNoKeys) {
+  const auto parsed = parse({"--check", "--host", "0.0.0.0"});
+  EXPECT_EQ(parsed.exit_code, std::nullopt);
+  EXPECT_TRUE(parsed.check);
 }
 
 TEST(Options, LoopbackIsToldFromNames) {

@@ -310,6 +310,19 @@ TEST_F(ShapeStoreTest, RefusesForeignCursors) {
   }
 }
 
+TEST_F(ShapeStoreTest, SaysWhetherItTakesWrites) {
+  const std::filesystem::path log = file_.path().string() + "-wal";
+  const auto before = std::filesystem::file_size(log);
+  store_.check_writable();
+  EXPECT_GT(std::filesystem::file_size(log), before);  // it is not only asked for
+  ShapeStore impatient(file_.path(), std::chrono::milliseconds(10));
+  SQLite::Database other(file_.path().string(), SQLite::OPEN_READWRITE);
+  other.exec("BEGIN IMMEDIATE");
+  EXPECT_EQ(error_of([&] { impatient.check_writable(); }), StorageErrorCode::busy);
+  other.exec("ROLLBACK");
+  EXPECT_NO_THROW(impatient.check_writable());
+}
+
 TEST_F(ShapeStoreTest, NamesEveryState) {
   std::set<std::string_view> names;
   for (const ShapeState state : {ShapeState::queued, ShapeState::processing, ShapeState::ready, ShapeState::failed}) {
