@@ -117,6 +117,7 @@ int serve(const ServerOptions& options) {
   Router router;
   add_system_routes(router, context);
   add_shape_routes(router, context);
+  add_derived_routes(router, context);
   add_match_routes(router, context);
   add_match_post_routes(router, context);
   add_job_routes(router, context);

@@ -7,9 +7,7 @@
 #include <utility>
 
 #include "api/json.h"
-#include "engine/io/map_writer.h"
 #include "server/conditional.h"
-#include "server/negotiation.h"
 #include "server/problem.h"
 #include "server/request_parameters.h"
 #include "server/server_context.h"
@@ -21,7 +19,6 @@ namespace {
 
 constexpr std::array<std::string_view, 4> states{"queued", "processing", "ready", "failed"};
 constexpr std::array<std::string_view, 2> repair_modes{"fill", "none"};
-constexpr std::array<Representation, 1> sphere_representations{{{"npy", "application/x-npy"}}};
 
 HttpResponse json_response(int status, const api::Json& json) {
   return {.status = status, .content_type = "application/json", .body = api::to_text(json) + "\n", .headers = {}};
@@ -140,25 +137,6 @@ HttpResponse delete_shape(const ServerContext& context, const HttpRequest& reque
   return {.status = 204, .content_type = {}, .body = {}, .headers = {}};
 }
 
-HttpResponse get_sphere(const ServerContext& context, const HttpRequest& request) {
-  const RequestParameters parameters(request, {"format", "wait"});
-  const Representation& chosen = choose_representation(parameters.text("format"), request.header("accept"), sphere_representations);
-  const auto wait = parameters.seconds("wait", 0, max_wait_seconds);
-  context.shapes.require_usable(request.id);
-
-  HttpResponse response{.status = 200, .content_type = std::string(chosen.media_type), .body = {}, .headers = {}};
-  const std::string etag = weak_etag({"sphere", request.id, context.engine.version(), chosen.format});
-  response.headers = {{"ETag", etag}, {"Cache-Control", "private, no-cache"}, {"Vary", "Accept"}};
-  if (names_etag(request.header("if-none-match"), etag)) {
-    response.status = 304;
-    response.content_type.clear();
-    return response;
-  }
-  context.shapes.require_ready(request.id, ShapeService::Clock::now() + wait);
-  response.body = encode_npy(uploaded_sphere(*context.shapes.load(request.id)));
-  return response;
-}
-
 }  // namespace
 
 void add_shape_routes(Router& router, const ServerContext& context) {
@@ -167,7 +145,6 @@ void add_shape_routes(Router& router, const ServerContext& context) {
   router.add("GET", "/shapes", bind(list_shapes));
   router.add("GET", "/shapes/{id}", bind(get_shape));
   router.add("DELETE", "/shapes/{id}", bind(delete_shape));
-  router.add("GET", "/shapes/{id}/sphere", bind(get_sphere));
 }
 
 }  // namespace spherematch

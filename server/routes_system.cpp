@@ -16,7 +16,7 @@ constexpr std::string_view start_page = R"(<!doctype html>
 <p>Dense point-to-point correspondence between genus-zero surfaces.</p>
 <ul>
 <li><a href="/shapes">/shapes</a>: what is stored; POST a mesh here</li>
-<li>/shapes/{id}, /shapes/{id}/sphere: one shape, its spherical parametrisation</li>
+<li>/shapes/{id}, /shapes/{id}/mesh, /shapes/{id}/sphere, /shapes/{id}/hks: one shape, its upload, its spherical parametrisation, its signals</li>
 <li>/match?src={id}&amp;tgt={id}: the map from one shape to another</li>
 <li><a href="/healthz">/healthz</a>, <a href="/version">/version</a>: the server itself</li>
 </ul>

@@ -28,6 +28,7 @@ struct ServerContext {
 };
 
 void add_shape_routes(Router& router, const ServerContext& context);
+void add_derived_routes(Router& router, const ServerContext& context);
 void add_job_routes(Router& router, const ServerContext& context);
 void add_match_routes(Router& router, const ServerContext& context);
 void add_match_post_routes(Router& router, const ServerContext& context);

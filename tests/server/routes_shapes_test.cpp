@@ -1,6 +1,3 @@
-#include <cmath>
-#include <cstring>
-
 #include "tests/server/test_service.h"
 
 namespace spherematch {
@@ -206,35 +203,6 @@ TEST_F(RoutesShapes, TheTagOfAShapeFollowsItsState) {
   engine.hold_preparation = false;
   post("sphere 1");
   EXPECT_NE(header(get("/shapes/" + id), "ETag"), before);
-}
-
-TEST_F(RoutesShapes, TheSphereHasOneRowPerUploadedVertex) {
-  const HttpResponse response = get("/shapes/" + ready("sphere 1") + "/sphere", {{"format", "npy"}});
-  EXPECT_EQ(response.status, 200);
-  EXPECT_EQ(response.content_type, "application/x-npy");
-  ASSERT_GT(response.body.size(), 15 * sizeof(double));
-  EXPECT_NE(response.body.find("(5, 3)"), std::string::npos);
-  double rows[5][3];
-  std::memcpy(rows, response.body.data() + response.body.size() - sizeof rows, sizeof rows);
-  EXPECT_NEAR(rows[1][0], 1 / std::sqrt(3), 1e-15);
-  EXPECT_NEAR(rows[1][1], -1 / std::sqrt(3), 1e-15);
-  for (const double value : rows[4]) EXPECT_TRUE(std::isnan(value));
-  EXPECT_EQ(problem_code(get("/shapes/" + ready("sphere 1") + "/sphere", {{"format", "json"}})), api::Code::invalid_parameter);
-  EXPECT_EQ(problem_code(call({.method = "GET",
-                               .path = "/shapes/" + ready("sphere 1") + "/sphere",
-                               .query = {},
-                               .body = {},
-                               .file_name = {},
-                               .headers = {{"accept", "image/png"}}})),
-            api::Code::not_acceptable);
-}
-
-TEST_F(RoutesShapes, TheSphereOfAnUnfinishedShapeIsAConflict) {
-  engine.hold_preparation = true;
-  const std::string id = shape(post("sphere 1", {})).id;
-  EXPECT_EQ(problem_code(get("/shapes/" + id + "/sphere")), api::Code::shape_not_ready);
-  engine.hold_preparation = false;
-  EXPECT_EQ(get("/shapes/" + id + "/sphere", {{"wait", "10"}}).status, 200);
 }
 
 TEST_F(RoutesShapes, DeletingRemovesAndCancels) {

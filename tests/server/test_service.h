@@ -47,6 +47,7 @@ class TestService : public ::testing::Test {
         ServerContext{options, "1.2.3", engine, *shapes, *matches, *match_service, *match_jobs, *jobs, stop_source.get_token()});
     router = std::make_unique<Router>();
     add_shape_routes(*router, *context);
+    add_derived_routes(*router, *context);
     add_match_routes(*router, *context);
     add_match_post_routes(*router, *context);
     add_job_routes(*router, *context);
