@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "engine/data/error.h"
 #include "engine/io/text_scanner.h"
@@ -231,7 +232,8 @@ std::string_view take_header(std::string_view& bytes) {
 
 }  // namespace
 
-Array decode_npy(std::string_view bytes) {
+Array decode_npy(std::string file) {
+  std::string_view bytes = file;
   Header header = HeaderParser(take_header(bytes)).parse();
   Array array;
   array.dtype = std::move(header.dtype);
@@ -241,7 +243,12 @@ Array decode_npy(std::string_view bytes) {
   const auto size = data_bytes(array);
   if (!size || *size > bytes.size()) fail("it ends before its last item");
   if (*size < bytes.size()) fail("it has " + std::to_string(bytes.size() - *size) + " bytes more than its shape asks for");
-  array.bytes = header.fortran_order && array.shape.size() > 1 ? in_c_order(array, bytes) : std::string(bytes);
+  if (header.fortran_order && array.shape.size() > 1) {
+    array.bytes = in_c_order(array, bytes);
+  } else {
+    file.erase(0, file.size() - bytes.size());
+    array.bytes = std::move(file);
+  }
   return array;
 }
 

@@ -85,11 +85,15 @@ void interpolate(const Array& values, const Correspondence& map, Eigen::Index i,
 
 }  // namespace
 
-Array transfer(const Array& values, const Correspondence& map, Interpolation interpolation) {
+void check_interpolation(const Array& values, Interpolation interpolation) {
   if (interpolation == Interpolation::linear && !is_floating(values)) {
     throw EngineError(ErrorCode::invalid_parameter,
                       "interp: linear needs floating-point numbers and the array has dtype " + values.dtype + "; nearest works");
   }
+}
+
+Array transfer(const Array& values, const Correspondence& map, Interpolation interpolation) {
+  check_interpolation(values, interpolation);
   Array result{.dtype = values.dtype,
                .kind = values.kind,
                .item_bytes = values.item_bytes,

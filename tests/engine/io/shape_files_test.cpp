@@ -56,7 +56,7 @@ TEST(ShapeFiles, SignalsAreRowsOfColatitude) {
   const std::string npz = encode_hks_npz(shape);
   const std::size_t start = npz.find("\x93NUMPY");
   const std::size_t size = encode_npy("<f8", std::array<std::int64_t, 1>{3}, {}).size() + 24;
-  const Array times = decode_npy(std::string_view(npz).substr(start, size));
+  const Array times = decode_npy(npz.substr(start, size));
   double values[3];
   std::memcpy(values, times.bytes.data(), sizeof values);
   EXPECT_EQ(values[0], 1);
