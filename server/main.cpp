@@ -120,6 +120,8 @@ int serve(const ServerOptions& options) {
   add_derived_routes(router, context);
   add_match_routes(router, context);
   add_match_post_routes(router, context);
+  add_transfer_routes(router, context);
+  add_scene_routes(router, context);
   add_job_routes(router, context);
   HttpServer server(router, uploads, http_settings(options));
   const int port = server.bind(options.host, options.port);

@@ -120,13 +120,39 @@ HttpResponse list_shapes(const ServerContext& context, const HttpRequest& reques
   return response;
 }
 
+std::string etag_of(const api::Shape& shape) { return weak_etag({"shape", api::to_text(api::to_json(shape))}); }
+
 HttpResponse get_shape(const ServerContext& context, const HttpRequest& request) {
   const RequestParameters parameters(request, {});
-  HttpResponse response = json_response(200, api::to_json(context.shapes.get(request.id)));
-  const std::string etag = weak_etag({"shape", response.body});
+  const api::Shape shape = context.shapes.get(request.id);
+  HttpResponse response = json_response(200, api::to_json(shape));
+  const std::string etag = etag_of(shape);
   if (names_etag(request.header("if-none-match"), etag)) response = {.status = 304, .content_type = {}, .body = {}, .headers = {}};
   response.headers.emplace_back("ETag", etag);
   response.headers.emplace_back("Cache-Control", "private, no-cache");
+  return response;
+}
+
+api::ShapePatch parse_patch(const HttpRequest& request) {
+  try {
+    api::ShapePatch patch = api::from_text<api::ShapePatch>(request.body.bytes);
+    if (patch.name) check_name(*patch.name);
+    if (patch.tags) check_tags(*patch.tags);
+    return patch;
+  } catch (const api::JsonError& error) {
+    throw ProblemError(api::Code::invalid_parameter, error.what());
+  }
+}
+
+HttpResponse patch_shape(const ServerContext& context, const HttpRequest& request) {
+  const RequestParameters parameters(request, {});
+  const api::ShapePatch patch = parse_patch(request);
+  // A weak comparison, as all our tags are weak; it still tells whether somebody else made a change in between.
+  const std::string expected = request.header("if-match");
+  const auto unchanged = [&](const api::Shape& shape) { return expected.empty() || names_etag(expected, etag_of(shape)); };
+  const api::Shape shape = context.shapes.change(request.id, {.name = patch.name, .tags = patch.tags}, unchanged);
+  HttpResponse response = json_response(200, api::to_json(shape));
+  response.headers.emplace_back("ETag", etag_of(shape));
   return response;
 }
 
@@ -144,6 +170,7 @@ void add_shape_routes(Router& router, const ServerContext& context) {
   router.add("POST", "/shapes", bind(post_shape), Body::upload);
   router.add("GET", "/shapes", bind(list_shapes));
   router.add("GET", "/shapes/{id}", bind(get_shape));
+  router.add("PATCH", "/shapes/{id}", bind(patch_shape), Body::json);
   router.add("DELETE", "/shapes/{id}", bind(delete_shape));
 }
 

@@ -18,6 +18,8 @@ constexpr std::string_view start_page = R"(<!doctype html>
 <li><a href="/shapes">/shapes</a>: what is stored; POST a mesh here</li>
 <li>/shapes/{id}, /shapes/{id}/mesh, /shapes/{id}/sphere, /shapes/{id}/hks: one shape, its upload, its spherical parametrisation, its signals</li>
 <li>/match?src={id}&amp;tgt={id}: the map from one shape to another</li>
+<li>/transfer?src={id}&amp;tgt={id}: POST an array of values at the vertices of tgt, get it for those of src</li>
+<li>/scene?src={id}&amp;tgt={id}: both meshes, corresponding points in one colour</li>
 <li><a href="/healthz">/healthz</a>, <a href="/version">/version</a>: the server itself</li>
 </ul>
 <pre>

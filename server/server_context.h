@@ -32,6 +32,8 @@ void add_derived_routes(Router& router, const ServerContext& context);
 void add_job_routes(Router& router, const ServerContext& context);
 void add_match_routes(Router& router, const ServerContext& context);
 void add_match_post_routes(Router& router, const ServerContext& context);
+void add_transfer_routes(Router& router, const ServerContext& context);
+void add_scene_routes(Router& router, const ServerContext& context);
 void add_system_routes(Router& router, const ServerContext& context);
 
 }  // namespace spherematch

@@ -44,8 +44,7 @@ class ShapeService {
   };
   /// Reads and checks the mesh, stores it and queues its preparation. Known bytes are neither read nor stored again; one that
   /// failed, or that an older engine prepared, is queued again; its labels stay. `file_name` may help to recognise the format.
-  [[nodiscard]] Posted post(std::span<const std::byte> bytes, ShapeLabels labels, std::string_view file_name,
-                            const ReadOptions& options);
+  [[nodiscard]] Posted post(std::span<const std::byte> bytes, ShapeLabels labels, std::string_view file_name, const ReadOptions& options);
 
   /// Waits until no preparation of the shape is under way here; false when that did not happen in time. Beyond the bound of
   /// long polls it does not wait.
