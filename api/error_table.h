@@ -35,9 +35,13 @@ enum class Code {
   disconnected,
   wrong_genus,
   parametrization_failed,
+  // the array of a transfer
+  malformed_array,
+  length_mismatch,
   // the state of a shape
   shape_not_ready,
   shape_failed,
+  precondition_failed,
   // the state of a job
   job_finished,
   // the server

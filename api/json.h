@@ -19,6 +19,7 @@ class JsonError : public std::runtime_error {
 [[nodiscard]] Json to_json(const Problem& value);
 [[nodiscard]] Json to_json(const Shape& value);
 [[nodiscard]] Json to_json(const ShapePage& value);
+[[nodiscard]] Json to_json(const ShapePatch& value);
 [[nodiscard]] Json to_json(const Match& value);
 [[nodiscard]] Json to_json(const MatchRequest& value);
 [[nodiscard]] Json to_json(const PointMatch& value);
@@ -42,6 +43,8 @@ template <>
 Shape from_text<Shape>(std::string_view text);
 template <>
 ShapePage from_text<ShapePage>(std::string_view text);
+template <>
+ShapePatch from_text<ShapePatch>(std::string_view text);
 template <>
 Match from_text<Match>(std::string_view text);
 template <>

@@ -66,6 +66,7 @@ Shape read_shape(const Json& value, const std::string& path) {
   Shape shape;
   shape.id = reader.text("id");
   shape.name = reader.text("name");
+  shape.tags = reader.texts("tags");
   shape.state = read_state(reader);
   if (!reader.is_null("stage")) shape.stage = reader.text("stage");
   shape.progress = reader.number("progress", 0, 1);
@@ -88,6 +89,7 @@ Shape read_shape(const Json& value, const std::string& path) {
 Json to_json(const Shape& value) {
   return {{"id", value.id},
           {"name", value.name},
+          {"tags", value.tags},
           {"state", state_names.at(static_cast<std::size_t>(value.state))},
           {"stage", text_or_null(value.stage)},
           {"progress", value.progress},
@@ -107,6 +109,24 @@ Json to_json(const ShapePage& value) {
   Json items = Json::array();
   for (const Shape& shape : value.items) items.push_back(to_json(shape));
   return {{"items", std::move(items)}, {"next_cursor", value.next_cursor ? Json(*value.next_cursor) : Json(nullptr)}};
+}
+
+Json to_json(const ShapePatch& value) {
+  Json json = Json::object();
+  if (value.name) json["name"] = *value.name;
+  if (value.tags) json["tags"] = *value.tags;
+  return json;
+}
+
+template <>
+ShapePatch from_text<ShapePatch>(std::string_view text) {
+  const Json json = parse(text);
+  ObjectReader reader(json, "");
+  ShapePatch patch;
+  if (reader.has("name")) patch.name = reader.is_null("name") ? "" : reader.text("name");
+  if (reader.has("tags")) patch.tags = reader.is_null("tags") ? std::vector<std::string>() : reader.texts("tags");
+  reader.finish();
+  return patch;
 }
 
 template <>

@@ -92,6 +92,16 @@ bool ObjectReader::is_null(std::string_view name) { return member(name).is_null(
 
 bool ObjectReader::has(std::string_view name) const { return value_.contains(std::string(name)); }
 
+std::vector<std::string> ObjectReader::texts(std::string_view name) {
+  const Json& array = array_at(member(name), path_of(name));
+  std::vector<std::string> result;
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    if (!array[i].is_string()) fail(element_path(path_of(name), i), "must be a string");
+    result.push_back(array[i].get<std::string>());
+  }
+  return result;
+}
+
 void ObjectReader::finish() const {
   for (const auto& [key, value] : value_.items()) {
     if (!seen_.contains(key)) fail(path_of(key), "is not a known member");

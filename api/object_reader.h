@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "api/json.h"
 
@@ -32,6 +33,7 @@ class ObjectReader {
   [[nodiscard]] bool is_null(std::string_view name);
   /// Whether there is such a member; one that is there still has to be read.
   [[nodiscard]] bool has(std::string_view name) const;
+  [[nodiscard]] std::vector<std::string> texts(std::string_view name);
 
   /// @throws JsonError when the object has a member that nothing asked for
   void finish() const;

@@ -84,6 +84,7 @@ struct Sphere {
 struct Shape {
   std::string id;
   std::string name;
+  std::vector<std::string> tags;  ///< a set: ascending, each once
   ShapeState state = ShapeState::queued;
   std::string stage;    ///< empty unless processing
   double progress = 0;  ///< in [0, 1], never falls during one preparation
@@ -98,6 +99,13 @@ struct Shape {
   std::optional<Problem> error;            ///< once failed
   std::string created_at;
   bool operator==(const Shape&) const = default;
+};
+
+/// Changes to a shape, a merge patch of RFC 7396: what is absent stays, and null in its JSON stands for empty.
+struct ShapePatch {
+  std::optional<std::string> name;
+  std::optional<std::vector<std::string>> tags;
+  bool operator==(const ShapePatch&) const = default;
 };
 
 struct ShapePage {

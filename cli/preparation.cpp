@@ -8,6 +8,7 @@
 #include "cli/files.h"
 #include "cli/progress_bar.h"
 #include "engine/engine.h"
+#include "engine/io/mesh_reader.h"
 #include "storage/content_id.h"
 #include "storage/upload_options.h"
 
@@ -44,7 +45,10 @@ Preparation prepare_file(ShapeStore& store, const std::filesystem::path& file, c
     if (auto shape = stored_shape(store, *record)) return {content.id, std::move(shape), true};
   }
   const std::string name = file.filename().string();
-  if (!record) store.insert(content, name, bytes, read_surface(bytes, name, options.read));
+  if (!record) {
+    const Surface surface = read_surface(bytes, name, options.read);
+    store.insert(content, {.name = name, .format = std::string(mesh_format_of(bytes, name)), .tags = {}}, bytes, surface);
+  }
   // A server on the same store may prepare it at the same time. Both get the same result, and saving it twice does no harm.
   auto shape = std::make_shared<const PreprocessedShape>(compute(store.load_surface(content.id), options.threads));
   store.save_prepared(content.id, *shape);

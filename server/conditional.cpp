@@ -32,4 +32,14 @@ bool names_etag(std::string_view if_none_match, std::string_view etag) {
   return false;
 }
 
+HttpResponse answer_unless_known(const HttpRequest& request, const std::string& etag, const std::function<HttpResponse()>& make) {
+  HttpResponse response{.status = 304, .content_type = {}, .body = {}, .headers = {}};
+  if (!names_etag(request.header("if-none-match"), etag)) response = make();
+  for (const auto& [name, value] :
+       {std::pair("ETag", etag.c_str()), std::pair("Cache-Control", "private, no-cache"), std::pair("Vary", "Accept")}) {
+    response.headers.emplace_back(name, value);
+  }
+  return response;
+}
+
 }  // namespace spherematch

@@ -118,8 +118,11 @@ int serve(const ServerOptions& options) {
   operations.add_to(router, context);
   add_system_routes(router, context);
   add_shape_routes(router, context);
+  add_derived_routes(router, context);
   add_match_routes(router, context);
   add_match_post_routes(router, context);
+  add_transfer_routes(router, context);
+  add_scene_routes(router, context);
   add_job_routes(router, context);
   add_docs_routes(router);
   HttpServerSettings settings = http_settings(options);

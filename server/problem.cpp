@@ -81,6 +81,8 @@ api::Code code_of(ErrorCode code) {
       return api::Code::wrong_genus;
     case ErrorCode::parametrization_failed:
       return api::Code::parametrization_failed;
+    case ErrorCode::malformed_array:
+      return api::Code::malformed_array;
     case ErrorCode::cancelled:
       return api::Code::cancelled;
     case ErrorCode::invalid_parameter:

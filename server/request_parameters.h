@@ -33,6 +33,9 @@ class RequestParameters {
   const HttpRequest& request_;
 };
 
+/// Text as it may stand in a query (RFC 3986, section 2): everything but letters, digits, '-', '.', '_' and '~' as %XX.
+[[nodiscard]] std::string percent_encoded(std::string_view text);
+
 /// "a, b, c"
 [[nodiscard]] std::string joined(std::span<const std::string_view> words);
 

@@ -17,9 +17,12 @@ constexpr std::string_view start_page = R"(<!doctype html>
 <p>Dense point-to-point correspondence between genus-zero surfaces.</p>
 <ul>
 <li><a href="/shapes">/shapes</a>: what is stored; POST a mesh here</li>
-<li>/shapes/{id}, /shapes/{id}/sphere: one shape, its spherical parametrisation</li>
+<li>/shapes/{id}, /shapes/{id}/mesh, /shapes/{id}/sphere, /shapes/{id}/hks: one shape, its upload, its spherical parametrisation, its signals</li>
 <li>/match?src={id}&amp;tgt={id}: the map from one shape to another</li>
+<li>/transfer?src={id}&amp;tgt={id}: POST an array of values at the vertices of tgt, get it for those of src</li>
+<li>/scene?src={id}&amp;tgt={id}: both meshes, corresponding points in one colour</li>
 <li><a href="/healthz">/healthz</a>, <a href="/readyz">/readyz</a>, <a href="/version">/version</a>, /metrics: the server itself</li>
+<li><a href="/docs">/docs</a>, <a href="/openapi.json">/openapi.json</a>: every operation, parameter and answer</li>
 </ul>
 <pre>
 curl --data-binary @a.off 'SERVER/shapes?name=a&amp;wait=60'

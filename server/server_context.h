@@ -28,10 +28,13 @@ struct ServerContext {
 };
 
 void add_shape_routes(Router& router, const ServerContext& context);
+void add_derived_routes(Router& router, const ServerContext& context);
 void add_docs_routes(Router& router);
 void add_job_routes(Router& router, const ServerContext& context);
 void add_match_routes(Router& router, const ServerContext& context);
 void add_match_post_routes(Router& router, const ServerContext& context);
+void add_transfer_routes(Router& router, const ServerContext& context);
+void add_scene_routes(Router& router, const ServerContext& context);
 void add_system_routes(Router& router, const ServerContext& context);
 
 }  // namespace spherematch

@@ -45,6 +45,7 @@ api::Shape shape_of(const ShapeRecord& record, const std::optional<JobStatus>& j
   api::Shape shape;
   shape.id = record.id;
   shape.name = record.name;
+  shape.tags = record.tags;
   shape.state = state_of(record.state);
   shape.vertices = record.vertices;
   shape.faces = record.faces;

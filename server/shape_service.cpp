@@ -5,6 +5,7 @@
 #include <mutex>
 #include <set>
 
+#include "engine/io/mesh_reader.h"
 #include "server/event_log.h"
 #include "server/memory_size.h"
 #include "server/problem.h"
@@ -85,13 +86,14 @@ ShapeService::ShapeService(ShapeStore& store, const EnginePort& engine, const Sh
   for (const std::string& id : store_.requeue_unfinished()) jobs_.submit(id, /*beyond_limit=*/true);
 }
 
-ShapeService::Posted ShapeService::post(std::span<const std::byte> bytes, const std::string& name, std::string_view file_name,
+ShapeService::Posted ShapeService::post(std::span<const std::byte> bytes, ShapeLabels labels, std::string_view file_name,
                                         const ReadOptions& options) {
   const ContentId content = content_id(bytes, upload_options(options));
   if (const auto known = store_.find(content.id)) return post_known(*known);
   require_room();  // before the mesh is read and stored: a refused upload leaves nothing behind
   const Surface surface = engine_.read_surface(bytes, file_name, options, settings_.read_limits);
-  const InsertOutcome outcome = store_.insert(content, name, bytes, surface);
+  labels.format = mesh_format_of(bytes, file_name);
+  const InsertOutcome outcome = store_.insert(content, labels, bytes, surface);
   jobs_.submit(content.id, /*beyond_limit=*/true);
   return {content.id, outcome == InsertOutcome::known};
 }
@@ -111,12 +113,26 @@ api::Shape ShapeService::get(const std::string& id) const {
   return shape_of(record_of(id), job);
 }
 
-api::ShapePage ShapeService::list(std::size_t limit, const std::optional<std::string>& cursor) const {
-  const ShapePage page = store_.list(limit, cursor);
+api::ShapePage ShapeService::list(std::size_t limit, const std::optional<std::string>& cursor, const ShapeFilter& filter) const {
+  const ShapePage page = store_.list(limit, cursor, filter);
   api::ShapePage result;
   for (const ShapeRecord& record : page.shapes) result.items.push_back(shape_of(record, jobs_.status(record.id)));
   result.next_cursor = page.next_cursor;
   return result;
+}
+
+api::Shape ShapeService::change(const std::string& id, const ShapeChange& change, const std::function<bool(const api::Shape&)>& accept) {
+  const auto job = jobs_.status(id);
+  const auto accept_record = [&](const ShapeRecord& record) { return !accept || accept(shape_of(record, job)); };
+  switch (is_shape_id(id) ? store_.change(id, change, accept_record) : ChangeOutcome::not_found) {
+    case ChangeOutcome::not_found:
+      throw no_such_shape(id);
+    case ChangeOutcome::refused:
+      throw ProblemError(api::Code::precondition_failed, "the shape has changed since it got the ETag of If-Match");
+    case ChangeOutcome::changed:
+      break;
+  }
+  return get(id);
 }
 
 void ShapeService::remove(const std::string& id) {
@@ -182,9 +198,14 @@ ShapePointer ShapeService::load(const std::string& id) {
   }
 }
 
+ShapeService::StoredUpload ShapeService::load_upload(const std::string& id) const {
+  ShapeRecord record = record_of(id);
+  return {.bytes = store_.load_upload(id), .format = std::move(record.format)};
+}
+
 PolygonMesh ShapeService::load_mesh(const std::string& id) const {
-  const ShapeRecord record = record_of(id);
-  return engine_.read_mesh(store_.load_upload(id), record.name);
+  const StoredUpload upload = load_upload(id);
+  return engine_.read_mesh(upload.bytes, "." + upload.format);
 }
 
 void ShapeService::stop() { jobs_.stop(); }

@@ -45,9 +45,8 @@ class ShapeService {
     bool known = false;  ///< nothing new is computed for this upload
   };
   /// Reads and checks the mesh, stores it and queues its preparation. Known bytes are neither read nor stored again; one that
-  /// failed, or that an older engine prepared, is queued again. `file_name` may help to recognise the format.
-  [[nodiscard]] Posted post(std::span<const std::byte> bytes, const std::string& name, std::string_view file_name,
-                            const ReadOptions& options);
+  /// failed, or that an older engine prepared, is queued again; its labels stay. `file_name` may help to recognise the format.
+  [[nodiscard]] Posted post(std::span<const std::byte> bytes, ShapeLabels labels, std::string_view file_name, const ReadOptions& options);
 
   /// Waits until no preparation of the shape is under way here; false when that did not happen in time. Beyond the bound of
   /// long polls it does not wait.
@@ -55,7 +54,10 @@ class ShapeService {
 
   /// @throws ProblemError(not_found)
   [[nodiscard]] api::Shape get(const std::string& id) const;
-  [[nodiscard]] api::ShapePage list(std::size_t limit, const std::optional<std::string>& cursor) const;
+  [[nodiscard]] api::ShapePage list(std::size_t limit, const std::optional<std::string>& cursor, const ShapeFilter& filter = {}) const;
+  /// The shape after the change. `accept` is asked about the shape as it is, and about no other before the change is made.
+  /// @throws ProblemError(not_found), ProblemError(precondition_failed) when `accept` says no
+  api::Shape change(const std::string& id, const ShapeChange& change, const std::function<bool(const api::Shape&)>& accept);
   /// Cancels the preparation and removes the shape with everything derived from it. @throws ProblemError(not_found)
   void remove(const std::string& id);
 
@@ -68,6 +70,12 @@ class ShapeService {
   void require_ready(const std::string& id, Clock::time_point deadline);
   /// The decoded shape. @throws ProblemError(shape_not_ready) when it is not ready (any more)
   [[nodiscard]] ShapePointer load(const std::string& id);
+  struct StoredUpload {
+    std::vector<std::byte> bytes;
+    std::string format;  ///< what it was recognised as, "off" and the like
+  };
+  /// The upload as it came. @throws ProblemError(not_found)
+  [[nodiscard]] StoredUpload load_upload(const std::string& id) const;
   /// The uploaded mesh, read again from the stored upload: its bytes and a small multiple of them in memory. @throws
   /// ProblemError(not_found)
   [[nodiscard]] PolygonMesh load_mesh(const std::string& id) const;

@@ -107,7 +107,22 @@ ALTER TABLE shapes ADD COLUMN finished_at TEXT;
 
 constexpr const char* note_simplified = "ALTER TABLE shapes ADD COLUMN simplified INTEGER;";
 
-constexpr std::array steps{first_schema, count_attempts, matches_and_jobs, note_simplified};
+// The format is what an upload was recognised as, so that it can be read again under any name. Of older uploads it is what the name
+// ends in, which is all that was known.
+constexpr const char* label_shapes = R"sql(
+ALTER TABLE shapes ADD COLUMN format TEXT NOT NULL DEFAULT '';
+UPDATE shapes SET format = substr(lower(name), -3) WHERE substr(lower(name), -4) IN ('.ply', '.glb', '.off', '.stl', '.obj');
+UPDATE shapes SET format = 'gltf' WHERE substr(lower(name), -5) = '.gltf';
+CREATE INDEX shapes_by_sha256 ON shapes (sha256);
+CREATE TABLE shape_tags (
+  shape INTEGER NOT NULL REFERENCES shapes (sequence) ON DELETE CASCADE,
+  tag TEXT NOT NULL,
+  PRIMARY KEY (shape, tag)
+) STRICT, WITHOUT ROWID;
+CREATE INDEX shapes_by_tag ON shape_tags (tag, shape);
+)sql";
+
+constexpr std::array steps{first_schema, count_attempts, matches_and_jobs, note_simplified, label_shapes};
 
 int pragma(SQLite::Database& database, const char* name) { return database.execAndGet(std::string("PRAGMA ") + name).getInt(); }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* select_shape =
     "SELECT sequence, id, name, sha256, options, state, created_at, engine, error_code, error_detail, sphere_flipped, "
     "solid_angle_defect, area_distortion, vertices, faces, filled_loops, added_vertices, added_faces, dropped_vertices, "
-    "welded_vertices, split_vertices, flipped_faces, removed_faces, dropped_components, simplified FROM shapes ";
+    "welded_vertices, split_vertices, flipped_faces, removed_faces, dropped_components, simplified, format FROM shapes ";
 constexpr int first_repair_column = 15;
 
 constexpr std::array repair_fields{
@@ -41,6 +41,14 @@ StageSeconds read_seconds(SQLite::Database& database, Sequence shape) {
   return seconds;
 }
 
+std::vector<std::string> read_tags(SQLite::Database& database, Sequence shape) {
+  SQLite::Statement query(database, "SELECT tag FROM shape_tags WHERE shape = ? ORDER BY tag");
+  query.bind(1, shape);
+  std::vector<std::string> tags;
+  while (query.executeStep()) tags.push_back(query.getColumn(0).getString());
+  return tags;
+}
+
 ShapeRow read_row(SQLite::Database& database, SQLite::Statement& query) {
   ShapeRow row;
   ShapeRecord& record = row.record;
@@ -62,7 +70,9 @@ ShapeRow read_row(SQLite::Database& database, SQLite::Statement& query) {
   int column = first_repair_column;
   for (const auto field : repair_fields) record.repair.*field = query.getColumn(column++).getInt();
   if (!query.getColumn(column).isNull()) record.simplified = query.getColumn(column).getInt();
+  record.format = query.getColumn(column + 1).getString();
   record.seconds = read_seconds(database, row.sequence);
+  record.tags = read_tags(database, row.sequence);
   return row;
 }
 
@@ -106,28 +116,63 @@ std::optional<ShapeRow> find_row(SQLite::Database& database, std::string_view id
   return read_row(database, query);
 }
 
-std::vector<ShapeRow> rows_before(SQLite::Database& database, Sequence before, std::int64_t limit) {
-  SQLite::Statement query(database, std::string(select_shape) + "WHERE sequence < ? ORDER BY sequence DESC LIMIT ?");
-  query.bind(1, before);
-  query.bind(2, limit);
+std::vector<ShapeRow> rows_before(SQLite::Database& database, Sequence before, std::int64_t limit, const ShapeFilter& filter) {
+  std::string sql = std::string(select_shape) + "WHERE sequence < ?";
+  std::vector<std::string> values;
+  const auto require = [&](const char* condition, std::string value) {
+    sql += condition;
+    values.push_back(std::move(value));
+  };
+  if (filter.state) require(" AND state = ?", std::string(to_string(*filter.state)));
+  if (!filter.tag.empty()) require(" AND sequence IN (SELECT shape FROM shape_tags WHERE tag = ?)", filter.tag);
+  if (!filter.name_part.empty()) require(" AND instr(lower(name), lower(?)) > 0", filter.name_part);
+  if (!filter.sha256.empty()) require(" AND sha256 = ?", filter.sha256);
+  SQLite::Statement query(database, sql + " ORDER BY sequence DESC LIMIT ?");
+  int index = 1;
+  query.bind(index++, before);
+  for (const std::string& value : values) query.bind(index++, value);
+  query.bind(index, limit);
   std::vector<ShapeRow> rows;
   while (query.executeStep()) rows.push_back(read_row(database, query));
   return rows;
 }
 
-Sequence insert_row(SQLite::Database& database, const ContentId& content, std::string_view name, const Surface& surface) {
+Sequence insert_row(SQLite::Database& database, const ContentId& content, const ShapeLabels& labels, const Surface& surface) {
   SQLite::Statement insert(database,
                            "INSERT INTO shapes (id, name, sha256, options, state, created_at, vertices, faces, filled_loops, "
                            "added_vertices, added_faces, dropped_vertices, welded_vertices, split_vertices, flipped_faces, "
-                           "removed_faces, dropped_components, simplified) VALUES "
-                           "(?, ?, ?, ?, 'queued', strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                           "removed_faces, dropped_components, simplified, format) VALUES "
+                           "(?, ?, ?, ?, 'queued', strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   insert.bind(1, content.id);
-  insert.bind(2, std::string(name));
+  insert.bind(2, labels.name);
   insert.bind(3, content.sha256);
   insert.bind(4, content.options);
   bind_surface(insert, 5, surface);
+  insert.bind(17, labels.format);
   insert.exec();
-  return database.getLastInsertRowid();
+  const Sequence shape = database.getLastInsertRowid();
+  write_tags(database, shape, labels.tags);
+  return shape;
+}
+
+void update_name(SQLite::Database& database, Sequence shape, const std::string& name) {
+  SQLite::Statement update(database, "UPDATE shapes SET name = ? WHERE sequence = ?");
+  update.bind(1, name);
+  update.bind(2, shape);
+  update.exec();
+}
+
+void write_tags(SQLite::Database& database, Sequence shape, const std::vector<std::string>& tags) {
+  SQLite::Statement forget(database, "DELETE FROM shape_tags WHERE shape = ?");
+  forget.bind(1, shape);
+  forget.exec();
+  SQLite::Statement insert(database, "INSERT OR IGNORE INTO shape_tags (shape, tag) VALUES (?, ?)");
+  for (const std::string& tag : tags) {
+    insert.bind(1, shape);
+    insert.bind(2, tag);
+    insert.exec();
+    insert.reset();
+  }
 }
 
 void update_surface(SQLite::Database& database, Sequence shape, const Surface& surface) {

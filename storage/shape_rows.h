@@ -25,11 +25,14 @@ struct ShapeRow {
 };
 
 [[nodiscard]] std::optional<ShapeRow> find_row(SQLite::Database& database, std::string_view id);
-/// At most `limit` rows below `before`, newest first.
-[[nodiscard]] std::vector<ShapeRow> rows_before(SQLite::Database& database, Sequence before, std::int64_t limit);
+/// At most `limit` rows below `before` that the filter lets pass, newest first.
+[[nodiscard]] std::vector<ShapeRow> rows_before(SQLite::Database& database, Sequence before, std::int64_t limit, const ShapeFilter& filter);
 
 /// A new queued shape.
-Sequence insert_row(SQLite::Database& database, const ContentId& content, std::string_view name, const Surface& surface);
+Sequence insert_row(SQLite::Database& database, const ContentId& content, const ShapeLabels& labels, const Surface& surface);
+void update_name(SQLite::Database& database, Sequence shape, const std::string& name);
+/// These take the place of the tags that the shape has.
+void write_tags(SQLite::Database& database, Sequence shape, const std::vector<std::string>& tags);
 /// Counts and repair report of a surface that takes the place of another.
 void update_surface(SQLite::Database& database, Sequence shape, const Surface& surface);
 /// The shape becomes ready.

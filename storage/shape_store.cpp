@@ -92,7 +92,7 @@ ShapeStore::ShapeStore(const std::filesystem::path& file, std::chrono::milliseco
 
 ShapeStore::~ShapeStore() = default;
 
-InsertOutcome ShapeStore::insert(const ContentId& content, std::string_view name, std::span<const std::byte> upload,
+InsertOutcome ShapeStore::insert(const ContentId& content, const ShapeLabels& labels, std::span<const std::byte> upload,
                                  const Surface& surface) {
   const Blob upload_blob = encode_upload(upload);
   const Blob surface_blob = encode_surface(surface);
@@ -102,7 +102,7 @@ InsertOutcome ShapeStore::insert(const ContentId& content, std::string_view name
       clear_prepared(database, known->sequence);
       return InsertOutcome::queued_again;
     }
-    const Sequence shape = insert_row(database, content, name, surface);
+    const Sequence shape = insert_row(database, content, labels, surface);
     write_blob(database, shape, BlobKind::upload, upload_blob);
     write_blob(database, shape, BlobKind::surface, surface_blob);
     return InsertOutcome::inserted;
@@ -117,11 +117,11 @@ std::optional<ShapeRecord> ShapeStore::find(std::string_view id) const {
   });
 }
 
-ShapePage ShapeStore::list(std::size_t limit, const std::optional<std::string>& cursor) const {
+ShapePage ShapeStore::list(std::size_t limit, const std::optional<std::string>& cursor, const ShapeFilter& filter) const {
   const Sequence before = parse_cursor(cursor);
   // One more than asked for tells whether a next page exists.
   const auto wanted = static_cast<std::int64_t>(std::clamp<std::size_t>(limit, 1, std::numeric_limits<std::int32_t>::max())) + 1;
-  auto rows = read(*pool_, [&](SQLite::Database& database) { return rows_before(database, before, wanted); });
+  auto rows = read(*pool_, [&](SQLite::Database& database) { return rows_before(database, before, wanted, filter); });
   ShapePage page;
   if (static_cast<std::int64_t>(rows.size()) == wanted) {
     rows.pop_back();
@@ -130,6 +130,17 @@ ShapePage ShapeStore::list(std::size_t limit, const std::optional<std::string>& 
   page.shapes.reserve(rows.size());
   for (ShapeRow& row : rows) page.shapes.push_back(std::move(row.record));
   return page;
+}
+
+ChangeOutcome ShapeStore::change(std::string_view id, const ShapeChange& change, const std::function<bool(const ShapeRecord&)>& accept) {
+  return write(*pool_, [&](SQLite::Database& database) {
+    const auto row = find_row(database, id);
+    if (!row) return ChangeOutcome::not_found;
+    if (accept && !accept(row->record)) return ChangeOutcome::refused;
+    if (change.name) update_name(database, row->sequence, *change.name);
+    if (change.tags) write_tags(database, row->sequence, *change.tags);
+    return ChangeOutcome::changed;
+  });
 }
 
 bool ShapeStore::remove(std::string_view id) {

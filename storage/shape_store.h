@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -30,10 +31,19 @@ enum class ShapeState { queued, processing, ready, failed };
 /// "queued", "processing", "ready" or "failed".
 [[nodiscard]] std::string_view to_string(ShapeState state);
 
+/// What is said of an upload and is no part of its identity.
+struct ShapeLabels {
+  std::string name;               ///< may be empty
+  std::string format;             ///< what the upload was recognised as, "off" and the like; empty where nothing was
+  std::vector<std::string> tags;  ///< a set: kept in ascending order, each once
+};
+
 /// Everything about a shape except its arrays.
 struct ShapeRecord {
   std::string id;
-  std::string name;  ///< of the first upload; may be empty
+  std::string name;    ///< of the first upload, or as changed since
+  std::string format;  ///< of the first upload
+  std::vector<std::string> tags;
   std::string sha256;
   std::string options;
   ShapeState state = ShapeState::queued;
@@ -55,6 +65,22 @@ enum class InsertOutcome {
   queued_again,  ///< was failed; queued, its error forgotten
 };
 
+/// Shapes that a list is about: those that have everything that is set here.
+struct ShapeFilter {
+  std::optional<ShapeState> state;
+  std::string tag;
+  std::string name_part;  ///< capitals of ASCII count as their small letters
+  std::string sha256;
+};
+
+/// Only what is set changes.
+struct ShapeChange {
+  std::optional<std::string> name;
+  std::optional<std::vector<std::string>> tags;
+};
+
+enum class ChangeOutcome { changed, refused, not_found };
+
 struct ShapePage {
   std::vector<ShapeRecord> shapes;         ///< newest first
   std::optional<std::string> next_cursor;  ///< engaged when older shapes remain
@@ -70,16 +96,21 @@ class ShapeStore {
   ShapeStore(const ShapeStore&) = delete;
   ShapeStore& operator=(const ShapeStore&) = delete;
 
-  /// Stores an upload and its surface under `content.id`. Idempotent: of concurrent inserts one is `inserted`.
+  /// Stores an upload and its surface under `content.id`. Idempotent: of concurrent inserts one is `inserted`, and its labels stay.
   /// @throws StorageError(too_large)
-  InsertOutcome insert(const ContentId& content, std::string_view name, std::span<const std::byte> upload, const Surface& surface);
+  InsertOutcome insert(const ContentId& content, const ShapeLabels& labels, std::span<const std::byte> upload, const Surface& surface);
 
   [[nodiscard]] std::optional<ShapeRecord> find(std::string_view id) const;
 
   /// At most `limit` (at least 1) shapes, newest first, from the cursor of the page before or from the newest on. Shapes
-  /// inserted or removed between two pages neither repeat nor hide another.
+  /// inserted or removed between two pages neither repeat nor hide another. A cursor serves any filter.
   /// @throws StorageError(invalid_cursor)
-  [[nodiscard]] ShapePage list(std::size_t limit, const std::optional<std::string>& cursor = std::nullopt) const;
+  [[nodiscard]] ShapePage list(std::size_t limit, const std::optional<std::string>& cursor = std::nullopt,
+                               const ShapeFilter& filter = {}) const;
+
+  /// Changes a shape's labels, unless `accept` says no to what they are now; it is asked under the write lock, so that of two
+  /// changes to the same state one is refused. An empty `accept` says yes.
+  ChangeOutcome change(std::string_view id, const ShapeChange& change, const std::function<bool(const ShapeRecord&)>& accept = {});
 
   /// Removes a shape and everything derived from it; false when it is not there.
   bool remove(std::string_view id);

@@ -23,6 +23,7 @@ enum class ErrorCode {
   disconnected,              ///< more than one component (repair=none)
   wrong_genus,               ///< closed, but not a sphere
   parametrization_failed,    ///< no spherical parametrisation without flipped triangles was found
+  malformed_array,           ///< the bytes are no array file, or of a kind that is not read
   cancelled,                 ///< the caller asked to stop
   invalid_parameter,         ///< a parameter struct failed validate()
 };

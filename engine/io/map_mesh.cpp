@@ -58,6 +58,15 @@ Points normalized_coordinates(const Points& points, const Surface& target) {
   return normalized;
 }
 
+Colors own_colors(const Surface& target) {
+  Points points(target.uploaded_vertices(), 3);
+  for (std::int32_t v = 0; v < target.uploaded_vertices(); ++v) {
+    const bool dropped = target.surface_vertex[static_cast<std::size_t>(v)] < 0;
+    points.row(v) = dropped ? Eigen::RowVector3d::Constant(not_a_number) : Eigen::RowVector3d(uploaded_point(target, v));
+  }
+  return normalized_coordinates(points, target).unaryExpr(&byte_of);
+}
+
 MapMesh paint_mesh(PolygonMesh source, const Correspondence& map, const Surface& target) {
   if (source.vertices.rows() != map.corners.rows()) {
     throw std::invalid_argument("the map has " + std::to_string(map.corners.rows()) + " vertices and its source mesh " +

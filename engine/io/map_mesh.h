@@ -32,6 +32,10 @@ struct MapMesh {
 /// stays NaN.
 [[nodiscard]] Points normalized_coordinates(const Points& points, const Surface& target);
 
+/// The colours of the target's own uploaded vertices, (n, 3), as paint_mesh() gives them to what is mapped there; neutral gray for a
+/// dropped one.
+[[nodiscard]] Colors own_colors(const Surface& target);
+
 /// `source` is the uploaded mesh whose vertices the map speaks of. Linear time and memory.
 /// @throws std::invalid_argument when their numbers of vertices differ, and as image_points()
 [[nodiscard]] MapMesh paint_mesh(PolygonMesh source, const Correspondence& map, const Surface& target);

@@ -1,20 +1,12 @@
 #include <array>
-#include <charconv>
 #include <cstdio>
 
 #include "engine/io/map_mesh.h"
+#include "engine/io/number_output.h"
 
 namespace spherematch {
 
 namespace {
-
-template <typename Number>
-void append(std::string& text, Number number) {
-  std::array<char, 32> digits{};
-  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), number);
-  text += ' ';
-  text.append(digits.data(), result.ptr);
-}
 
 /// Each byte as a share of 255, in four decimals: enough to read the same byte back.
 std::array<std::string, 256> color_words() {
@@ -35,13 +27,13 @@ std::string encode_obj(const MapMesh& painted) {
   text.reserve(text.size() + static_cast<std::size_t>(painted.mesh.vertex_count()) * 80 + painted.mesh.indices.size() * 9);
   for (Eigen::Index v = 0; v < painted.mesh.vertices.rows(); ++v) {
     text += 'v';
-    for (int k = 0; k < 3; ++k) append(text, painted.mesh.vertices(v, k));
+    for (int k = 0; k < 3; ++k) append_text(text += ' ', painted.mesh.vertices(v, k));
     for (int k = 0; k < 3; ++k) text += words[painted.colors(v, k)];
     text += '\n';
   }
   for (std::int32_t f = 0; f < painted.mesh.face_count(); ++f) {
     text += 'f';
-    for (const std::int32_t vertex : painted.mesh.face(f)) append(text, vertex + 1);
+    for (const std::int32_t vertex : painted.mesh.face(f)) append_text(text += ' ', vertex + 1);
     text += '\n';
   }
   return text;

@@ -21,9 +21,11 @@ struct Format {
   PolygonMesh (*read)(std::string_view text, const ReadLimits& limits);
 };
 
+bool is_glb(std::string_view text) { return text.starts_with("glTF"); }
+
 // OBJ comes last, for it is recognised by its statements and not by a signature.
-constexpr std::array formats{Format{".ply", is_ply, read_ply}, Format{".gltf", is_gltf, read_gltf}, Format{".glb", is_gltf, read_gltf},
-                             Format{".off", is_off, read_off}, Format{".stl", is_stl, read_stl},    Format{".obj", is_obj, read_obj}};
+constexpr std::array formats{Format{".ply", is_ply, read_ply}, Format{".glb", is_glb, read_gltf}, Format{".gltf", is_gltf, read_gltf},
+                             Format{".off", is_off, read_off}, Format{".stl", is_stl, read_stl},  Format{".obj", is_obj, read_obj}};
 
 /// What people upload by mistake, by its first bytes.
 struct Stranger {
@@ -60,19 +62,37 @@ bool ends_with_ignoring_case(std::string_view name, std::string_view extension) 
                     [&](char e, char n) { return e == lower(n); });
 }
 
+const Stranger* stranger_of(std::string_view text) {
+  const auto* const found =
+      std::find_if(strangers.begin(), strangers.end(), [&](const Stranger& s) { return text.starts_with(s.signature); });
+  return found == strangers.end() ? nullptr : found;
+}
+
+const Format* format_of(std::string_view text, std::string_view name) {
+  for (const Format& format : formats)
+    if (format.recognises(text)) return &format;
+  if (stranger_of(text) != nullptr) return nullptr;
+  for (const Format& format : formats)
+    if (ends_with_ignoring_case(name, format.extension)) return &format;
+  return nullptr;
+}
+
+std::string_view text_of(std::span<const std::byte> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+
 }  // namespace
 
 PolygonMesh read_mesh(std::span<const std::byte> bytes, std::string_view name, const ReadLimits& limits) {
   if (bytes.empty()) throw EngineError(ErrorCode::malformed_mesh, "the mesh file is empty");
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  for (const Format& format : formats)
-    if (format.recognises(text)) return format.read(text, limits);
-  for (const Stranger& stranger : strangers)
-    if (text.starts_with(stranger.signature))
-      throw EngineError(ErrorCode::unsupported_format, "the file " + std::string(stranger.description) + ". " + std::string(supported));
-  for (const Format& format : formats)
-    if (ends_with_ignoring_case(name, format.extension)) return format.read(text, limits);
+  const std::string_view text = text_of(bytes);
+  if (const Format* format = format_of(text, name)) return format->read(text, limits);
+  if (const Stranger* stranger = stranger_of(text))
+    throw EngineError(ErrorCode::unsupported_format, "the file " + std::string(stranger->description) + ". " + std::string(supported));
   throw EngineError(ErrorCode::unsupported_format, "the format of the mesh file is not recognised; " + std::string(supported));
+}
+
+std::string_view mesh_format_of(std::span<const std::byte> bytes, std::string_view name) {
+  const Format* format = format_of(text_of(bytes), name);
+  return format == nullptr ? std::string_view() : format->extension.substr(1);
 }
 
 }  // namespace spherematch

@@ -19,4 +19,8 @@ namespace spherematch {
 /// of the vertices that the limit allows; EngineError(degenerate) when it has no vertices or no faces
 [[nodiscard]] PolygonMesh read_mesh(std::span<const std::byte> bytes, std::string_view name, const ReadLimits& limits = {});
 
+/// The format that read_mesh() takes such a file for: "ply", "glb", "gltf", "off", "stl" or "obj", and empty when it is none. The same
+/// file is taken for the same format again under the name "." + the result. Thread-safe.
+[[nodiscard]] std::string_view mesh_format_of(std::span<const std::byte> bytes, std::string_view name);
+
 }  // namespace spherematch

@@ -15,7 +15,7 @@ ProblemError described(const Error& error) {
   return problem_of(std::make_exception_ptr(error));
 }
 
-constexpr std::array<std::pair<ErrorCode, std::string_view>, 14> engine_codes{{
+constexpr std::array<std::pair<ErrorCode, std::string_view>, 15> engine_codes{{
     {ErrorCode::malformed_mesh, "malformed-mesh"},
     {ErrorCode::unsupported_format, "unsupported-format"},
     {ErrorCode::compressed_geometry, "compressed-geometry"},
@@ -28,6 +28,7 @@ constexpr std::array<std::pair<ErrorCode, std::string_view>, 14> engine_codes{{
     {ErrorCode::disconnected, "disconnected"},
     {ErrorCode::wrong_genus, "wrong-genus"},
     {ErrorCode::parametrization_failed, "parametrization-failed"},
+    {ErrorCode::malformed_array, "malformed-array"},
     {ErrorCode::cancelled, "cancelled"},
     {ErrorCode::invalid_parameter, "invalid-parameter"},
 }};

@@ -81,5 +81,10 @@ TEST(RequestParameters, Seconds) {
   }
 }
 
+TEST(RequestParameters, TextIsEncodedForAQuery) {
+  EXPECT_EQ(percent_encoded("aZ09-._~"), "aZ09-._~");
+  EXPECT_EQ(percent_encoded("a b&c=d>%\xC3\xA4"), "a%20b%26c%3Dd%3E%25%C3%A4");
+}
+
 }  // namespace
 }  // namespace spherematch

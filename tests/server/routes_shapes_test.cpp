@@ -1,6 +1,3 @@
-#include <cmath>
-#include <cstring>
-
 #include "tests/server/test_service.h"
 
 namespace spherematch {
@@ -124,6 +121,58 @@ TEST_F(RoutesShapes, ListsPagesNewestFirst) {
   EXPECT_EQ(problem_code(get("/shapes", {{"limit", "201"}})), api::Code::invalid_parameter);
 }
 
+TEST_F(RoutesShapes, TagsComeWithTheFirstUpload) {
+  const HttpResponse first = post("sphere 1", {{"tags", "cat,animal,cat"}, {"wait", "10"}});
+  EXPECT_EQ(shape(first).tags, (std::vector<std::string>{"animal", "cat"}));
+  EXPECT_EQ(shape(post("sphere 1", {{"tags", "dog"}})).tags, shape(first).tags);
+  EXPECT_EQ(problem_code(post("sphere 2", {{"tags", "a b"}})), api::Code::invalid_parameter);
+  EXPECT_EQ(engine.reads, 1);
+}
+
+TEST_F(RoutesShapes, FiltersSelectAndTheirPagesKeepThem) {
+  for (int i = 0; i < 6; ++i) {
+    post("sphere " + std::to_string(i),
+         {{"name", "Shape & " + std::to_string(i)}, {"tags", i % 2 == 0 ? "even,all" : "all"}, {"wait", "10"}});
+  }
+  post("sphere hopeless");
+  const auto names = [&](const HttpResponse& response) {
+    std::vector<std::string> result;
+    for (const api::Shape& item : api::from_text<api::ShapePage>(response.body).items) result.push_back(item.name);
+    return result;
+  };
+  const HttpResponse page = get("/shapes", {{"limit", "2"}, {"tag", "even"}, {"q", "shape &"}, {"state", "ready"}});
+  EXPECT_EQ(names(page), (std::vector<std::string>{"Shape & 4", "Shape & 2"}));
+  const std::string cursor = api::from_text<api::ShapePage>(page.body).next_cursor.value_or("");
+  EXPECT_EQ(header(page, "Link"), "</shapes?limit=2&cursor=" + cursor + "&state=ready&tag=even&q=shape%20%26>; rel=\"next\"");
+  EXPECT_EQ(names(get("/shapes", {{"cursor", cursor}, {"tag", "even"}})), std::vector<std::string>{"Shape & 0"});
+
+  EXPECT_EQ(names(get("/shapes", {{"state", "failed"}})).size(), 1U);
+  EXPECT_EQ(names(get("/shapes", {{"state", "queued"}})).size(), 0U);
+  const std::string sha256 = shape(post("sphere 3")).sha256;
+  std::string capitals = sha256;
+  for (char& c : capitals) c = c >= 'a' ? static_cast<char>(c - 'a' + 'A') : c;
+  EXPECT_EQ(names(get("/shapes", {{"sha256", sha256}})), std::vector<std::string>{"Shape & 3"});
+  EXPECT_EQ(names(get("/shapes", {{"sha256", capitals}})), std::vector<std::string>{"Shape & 3"});
+  EXPECT_EQ(names(get("/shapes", {{"state", ""}, {"tag", ""}, {"q", ""}, {"sha256", ""}})).size(), 7U);
+  for (const auto& [name, value] :
+       {std::pair("state", "done"), std::pair("tag", "a b"), std::pair("sha256", "abc"), std::pair("name", "Shape")}) {
+    EXPECT_EQ(problem_code(get("/shapes", {{name, value}})), api::Code::invalid_parameter) << name;
+  }
+}
+
+TEST_F(RoutesShapes, AnUploadIsReadAgainAsWhatItWasRecognised) {
+  // The file name alone tells the format, and the shape has another name.
+  const HttpResponse response = call({.method = "POST",
+                                      .path = "/shapes",
+                                      .query = {{"name", "leg"}, {"wait", "10"}},
+                                      .body = "sphere 1",
+                                      .file_name = "scan.STL",
+                                      .headers = {}});
+  (void)shapes->load_mesh(shape(response).id);
+  EXPECT_EQ(engine.mesh_name, ".stl");
+  EXPECT_EQ(shapes->load_upload(shape(response).id).format, "stl");
+}
+
 TEST_F(RoutesShapes, UnknownShapesAreNotFound) {
   for (const std::string& id : {std::string(32, '0'), std::string("x"), std::string(5000, 'a'), std::string("'; drop table")}) {
     EXPECT_EQ(problem_code(get("/shapes/" + id)), api::Code::not_found);
@@ -154,35 +203,6 @@ TEST_F(RoutesShapes, TheTagOfAShapeFollowsItsState) {
   engine.hold_preparation = false;
   post("sphere 1");
   EXPECT_NE(header(get("/shapes/" + id), "ETag"), before);
-}
-
-TEST_F(RoutesShapes, TheSphereHasOneRowPerUploadedVertex) {
-  const HttpResponse response = get("/shapes/" + ready("sphere 1") + "/sphere", {{"format", "npy"}});
-  EXPECT_EQ(response.status, 200);
-  EXPECT_EQ(response.content_type, "application/x-npy");
-  ASSERT_GT(response.body.size(), 15 * sizeof(double));
-  EXPECT_NE(response.body.find("(5, 3)"), std::string::npos);
-  double rows[5][3];
-  std::memcpy(rows, response.body.data() + response.body.size() - sizeof rows, sizeof rows);
-  EXPECT_NEAR(rows[1][0], 1 / std::sqrt(3), 1e-15);
-  EXPECT_NEAR(rows[1][1], -1 / std::sqrt(3), 1e-15);
-  for (const double value : rows[4]) EXPECT_TRUE(std::isnan(value));
-  EXPECT_EQ(problem_code(get("/shapes/" + ready("sphere 1") + "/sphere", {{"format", "json"}})), api::Code::invalid_parameter);
-  EXPECT_EQ(problem_code(call({.method = "GET",
-                               .path = "/shapes/" + ready("sphere 1") + "/sphere",
-                               .query = {},
-                               .body = {},
-                               .file_name = {},
-                               .headers = {{"accept", "image/png"}}})),
-            api::Code::not_acceptable);
-}
-
-TEST_F(RoutesShapes, TheSphereOfAnUnfinishedShapeIsAConflict) {
-  engine.hold_preparation = true;
-  const std::string id = shape(post("sphere 1", {})).id;
-  EXPECT_EQ(problem_code(get("/shapes/" + id + "/sphere")), api::Code::shape_not_ready);
-  engine.hold_preparation = false;
-  EXPECT_EQ(get("/shapes/" + id + "/sphere", {{"wait", "10"}}).status, 200);
 }
 
 TEST_F(RoutesShapes, DeletingRemovesAndCancels) {

@@ -21,6 +21,7 @@ TEST(ShapeJson, AReadyShapeIsComplete) {
   ready.sphere = SphereQuality{0, 0.5, 0.25};
   ready.seconds = {{"total", 3}};
   ready.engine = std::string("stub-1");
+  ready.tags = {"a", "b"};
   // A job that has just ended may still be reported as running; the record knows better.
   const api::Shape shape = shape_of(ready, JobStatus{true, "eigenbasis", 0.9});
   EXPECT_EQ(shape.state, api::ShapeState::ready);
@@ -29,6 +30,7 @@ TEST(ShapeJson, AReadyShapeIsComplete) {
   EXPECT_EQ(shape.sphere, (api::Sphere{0, 0.5, 0.25}));
   EXPECT_EQ(shape.seconds, ready.seconds);
   EXPECT_EQ(shape.engine, "stub-1");
+  EXPECT_EQ(shape.tags, ready.tags);
   EXPECT_EQ(shape.repair.mode, "none");
   EXPECT_EQ(shape.repair.filled_loops, 2);
   EXPECT_EQ(shape.repair.dropped_components, 3);

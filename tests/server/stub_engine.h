@@ -24,6 +24,7 @@ class StubEngine final : public EnginePort {
   std::atomic<bool> no_memory = false;
   mutable std::atomic<int> matches = 0;  ///< started
   std::string version_text = "stub-1";
+  mutable std::string mesh_name;  ///< that read_mesh() got last; for tests of one thread
 
   [[nodiscard]] std::string version() const override { return version_text; }
 
@@ -40,6 +41,7 @@ class StubEngine final : public EnginePort {
   }
 
   [[nodiscard]] PolygonMesh read_mesh(std::span<const std::byte> bytes, std::string_view name) const override {
+    mesh_name = name;
     const Surface surface = read_surface(bytes, name, {}, {});
     PolygonMesh mesh;
     mesh.vertices.setZero(surface.uploaded_vertices(), 3);

@@ -47,8 +47,11 @@ class TestService : public ::testing::Test {
         ServerContext{options, "1.2.3", engine, *shapes, *matches, *match_service, *match_jobs, *jobs, stop_source.get_token()});
     router = std::make_unique<Router>();
     add_shape_routes(*router, *context);
+    add_derived_routes(*router, *context);
     add_match_routes(*router, *context);
     add_match_post_routes(*router, *context);
+    add_transfer_routes(*router, *context);
+    add_scene_routes(*router, *context);
     add_job_routes(*router, *context);
     add_docs_routes(*router);
     add_system_routes(*router, *context);

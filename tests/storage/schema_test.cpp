@@ -84,8 +84,8 @@ CREATE TABLE blobs (
   shape INTEGER NOT NULL REFERENCES shapes (sequence) ON DELETE CASCADE, kind INTEGER NOT NULL, data BLOB NOT NULL, UNIQUE (shape, kind)
 ) STRICT;
 INSERT INTO shapes VALUES
-  (1, 'a', 'one', 'f', 'repair=fill', 'ready', 12, 20, 1, 2, 3, 4, 5, 6, 7, 8, 9, 0, 1e-14, 0.5, '1', '', '', '2024-01-31T12:00:00.000Z'),
-  (2, 'b', '', 'f', 'repair=none', 'processing', 9, 9, 0, 0, 0, 0, 0, 0, 0, 0, 0, NULL, NULL, NULL, '', '', '',
+  (1, 'a', 'one.STL', 'f', 'repair=fill', 'ready', 12, 20, 1, 2, 3, 4, 5, 6, 7, 8, 9, 0, 1e-14, 0.5, '1', '', '', '2024-01-31T12:00:00.000Z'),
+  (2, 'b', 'two.gltf', 'f', 'repair=none', 'processing', 9, 9, 0, 0, 0, 0, 0, 0, 0, 0, 0, NULL, NULL, NULL, '', '', '',
     '2024-01-31T12:00:01.000Z'),
   (5, 'c', '', 'f', 'repair=fill', 'failed', 9, 9, 0, 0, 0, 0, 0, 0, 0, 0, 0, NULL, NULL, NULL, '', 'x', 'y', '2024-01-31T12:00:02.000Z');
 INSERT INTO stage_seconds VALUES (1, 0, 'conformal', 1.5), (1, 1, 'total', 2.5);
@@ -101,8 +101,14 @@ TEST(Schema, BringsAFileOfTheFirstReleaseUpToDate) {
   EXPECT_EQ(pragma(file.path(), "user_version"), schema_version());
   const auto ready = store.find("a");
   ASSERT_TRUE(ready);
-  EXPECT_EQ(ready->name, "one");
+  EXPECT_EQ(ready->name, "one.STL");
   EXPECT_EQ(ready->state, ShapeState::ready);
+  EXPECT_EQ(ready->format, "stl");
+  EXPECT_TRUE(ready->tags.empty());
+  EXPECT_EQ(store.find("b")->format, "gltf");
+  EXPECT_EQ(store.find("c")->format, "");
+  EXPECT_EQ(store.change("c", {.name = {}, .tags = std::vector<std::string>{"old"}}), ChangeOutcome::changed);
+  EXPECT_EQ(store.list(9, std::nullopt, {.state = {}, .tag = "old", .name_part = {}, .sha256 = {}}).shapes.size(), 1U);
   EXPECT_EQ(ready->repair, (RepairReport{1, 2, 3, 4, 5, 6, 7, 8, 9}));
   EXPECT_EQ(ready->simplified, std::nullopt);
   EXPECT_EQ(ready->seconds, (StageSeconds{{"conformal", 1.5}, {"total", 2.5}}));

@@ -48,8 +48,12 @@ struct SampleUpload {
   Surface surface;
 };
 
-inline InsertOutcome insert(ShapeStore& store, const SampleUpload& upload, std::string_view name = "") {
-  return store.insert(upload.content, name, upload.bytes(), upload.surface);
+inline InsertOutcome insert(ShapeStore& store, const SampleUpload& upload, const ShapeLabels& labels) {
+  return store.insert(upload.content, labels, upload.bytes(), upload.surface);
+}
+
+inline InsertOutcome insert(ShapeStore& store, const SampleUpload& upload, const std::string& name = "") {
+  return insert(store, upload, ShapeLabels{.name = name, .format = "off", .tags = {}});
 }
 
 inline void expect_holds(const ShapeStore& store, const SampleUpload& upload) {

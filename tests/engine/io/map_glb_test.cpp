@@ -1,75 +1,17 @@
-// The GLB file of a map, taken apart by hand, and read back by the engine's reader.
+// The GLB file of a map, taken apart, and read back by the engine's reader.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "engine/io/map_mesh.h"
 #include "engine/io/mesh_reader.h"
+#include "tests/engine/io/glb_parts.h"
 #include "tests/engine/io/some_maps.h"
 
 namespace spherematch::test {
 namespace {
-
-using Json = nlohmann::json;
-
-/// A file that fulfils what the specification says of containers, views and accessors.
-struct Glb {
-  Json json;
-  std::string bytes;
-
-  explicit Glb(const std::string& file) {
-    const auto word = [&](std::size_t at) {
-      std::uint32_t value = 0;
-      std::memcpy(&value, file.substr(at, 4).data(), 4);
-      return value;
-    };
-    EXPECT_EQ(file.substr(0, 4), "glTF");
-    EXPECT_EQ(word(4), 2U);
-    EXPECT_EQ(word(8), file.size());
-    const std::uint32_t text = word(12);
-    EXPECT_EQ(text % 4, 0U);
-    EXPECT_EQ(file.substr(16, 4), "JSON");
-    const std::uint32_t binary = word(20 + text);
-    EXPECT_EQ(binary % 4, 0U);
-    EXPECT_EQ(file.substr(24 + text, 4), std::string("BIN\0", 4));
-    EXPECT_EQ(28U + text + binary, file.size());
-    json = Json::parse(file.substr(20, text));
-    bytes = file.substr(28 + text);
-    EXPECT_EQ(json["asset"]["version"], "2.0");
-    EXPECT_LE(json["buffers"][0]["byteLength"].get<std::size_t>(), bytes.size());
-    EXPECT_LT(bytes.size() - json["buffers"][0]["byteLength"].get<std::size_t>(), 4U);
-    for (const Json& view : json["bufferViews"]) {
-      EXPECT_EQ(view["byteOffset"].get<std::size_t>() % 4, 0U);
-      EXPECT_LE(view["byteOffset"].get<std::size_t>() + view["byteLength"].get<std::size_t>(), bytes.size());
-    }
-  }
-
-  [[nodiscard]] const Json& primitive() const { return json["meshes"][0]["primitives"][0]; }
-  [[nodiscard]] const Json& accessor(const std::string& attribute) const {
-    return json["accessors"][(attribute == "indices" ? primitive()["indices"] : primitive()["attributes"][attribute]).get<std::size_t>()];
-  }
-  /// Its numbers, which fill its view.
-  template <typename Number>
-  [[nodiscard]] std::vector<Number> numbers(const std::string& attribute, const std::string& type, int component, std::size_t width) const {
-    const Json& a = accessor(attribute);
-    EXPECT_EQ(a["type"], type);
-    EXPECT_EQ(a["componentType"], component);
-    const Json& view = json["bufferViews"][a["bufferView"].get<std::size_t>()];
-    std::vector<Number> result(a["count"].get<std::size_t>() * width);
-    EXPECT_EQ(view["byteLength"], result.size() * sizeof(Number));
-    EXPECT_EQ(view["target"], attribute == "indices" ? 34963 : 34962);
-    std::memcpy(result.data(), bytes.data() + view["byteOffset"].get<std::size_t>(), result.size() * sizeof(Number));
-    return result;
-  }
-  [[nodiscard]] std::vector<float> positions() const { return numbers<float>("POSITION", "VEC3", 5126, 3); }
-  [[nodiscard]] std::vector<float> normals() const { return numbers<float>("NORMAL", "VEC3", 5126, 3); }
-  [[nodiscard]] std::vector<std::uint8_t> colors() const { return numbers<std::uint8_t>("COLOR_0", "VEC4", 5121, 4); }
-  [[nodiscard]] std::vector<std::uint32_t> indices() const { return numbers<std::uint32_t>("indices", "SCALAR", 5125, 1); }
-};
 
 TEST(MapGlb, HoldsPositionsColorsAndTriangles) {
   const PolygonMesh sphere = polygons(icosphere(2));
@@ -163,7 +105,7 @@ TEST(MapGlb, FarFromTheOriginTheNodeTakesTheOffset) {
     mesh.vertices = (mesh.vertices * scale).eval();
     mesh.vertices.col(1).array() += shift;
     const Glb glb(encode_glb(painted_identity(mesh)));
-    const Json& node = glb.json["nodes"][0];
+    const Glb::Json& node = glb.json["nodes"][0];
     const std::vector<float> positions = glb.positions();
     for (Eigen::Index i = 0; i < mesh.vertices.size(); ++i) {
       const auto k = static_cast<std::size_t>(i % 3);

@@ -40,6 +40,23 @@ TEST(MeshReader, FallsBackToTheName) {
   expect_refused(ErrorCode::degenerate, "no vertices or no faces", text, "a.obj");
 }
 
+TEST(MeshReader, NamesTheFormatByContentThenByName) {
+  const auto named = [](const std::string& bytes, std::string_view name) { return mesh_format_of(std::as_bytes(std::span(bytes)), name); };
+  const PolygonMesh mesh = test::fit_for_every_format(test::tetrahedron());
+  for (const auto& [format, bytes] : test::in_every_format(mesh)) {
+    const std::string_view found = named(bytes, "a.fbx");
+    EXPECT_FALSE(found.empty()) << format;
+    EXPECT_TRUE(format.ends_with(found)) << format << " was taken for " << found;
+  }
+  const std::string plain = write_off(test::tetrahedron()).substr(4);
+  EXPECT_EQ(named(plain, "dir/A.OFF"), "off");
+  EXPECT_EQ(named(plain, ".gltf"), "gltf");
+  EXPECT_EQ(named(plain, ".glb"), "glb");
+  EXPECT_EQ(named(plain, "a"), "");
+  EXPECT_EQ(named("PK\x03\x04", "a.off"), "");
+  EXPECT_EQ(named("", ""), "");
+}
+
 TEST(MeshReader, RefusesNothingAndTheUnknown) {
   expect_refused(ErrorCode::malformed_mesh, "the mesh file is empty", "", "a.off");
   for (const std::string_view bytes :
