@@ -144,7 +144,7 @@ TEST(JsonJobs, EveryMemberOfAJobIsRequired) {
 
 TEST(JsonJobs, AnObjectOfTooManyMembersIsRefusedSoon) {
   std::string text = R"({"src": "a", "tgt": "b", "landmarks": {)";
-  for (int i = 0; i < 300'000; ++i) text += "\"" + std::to_string(i) + "\": 1,";
+  for (int i = 0; i < 300'000; ++i) text.append("\"").append(std::to_string(i)).append("\": 1,");
   text += R"("x": 1}})";
   EXPECT_THROW((void)from_text<MatchRequest>(text), JsonError);
 }

@@ -16,7 +16,7 @@ class JobStoreTest : public ::testing::Test {
  protected:
   std::string add_shape(const std::string& bytes) {
     const ContentId content = content_id(std::as_bytes(std::span(bytes)), "repair=fill");
-    shapes.insert(content, bytes, std::as_bytes(std::span(bytes)), testing::sample_surface());
+    shapes.insert(content, {}, std::as_bytes(std::span(bytes)), testing::sample_surface());
     return content.id;
   }
   static std::vector<std::int32_t> positions(const std::vector<JobPair>& pairs) {

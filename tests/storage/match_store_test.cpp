@@ -76,7 +76,7 @@ class MatchStoreTest : public ::testing::Test {
     for (const char* name : {"a", "b", "c"}) {
       const std::string bytes = name;
       ids.push_back(content_id(std::as_bytes(std::span(bytes)), "repair=fill").id);
-      shapes.insert(content_id(std::as_bytes(std::span(bytes)), "repair=fill"), name, std::as_bytes(std::span(bytes)), surface);
+      shapes.insert(content_id(std::as_bytes(std::span(bytes)), "repair=fill"), {}, std::as_bytes(std::span(bytes)), surface);
     }
   }
   testing::StoreFile file;
