@@ -19,7 +19,12 @@ Points spread_over(const Surface& surface, const Points& working_sphere) {
     const SurfacePoint& place = places[static_cast<std::size_t>(v)];
     for (std::size_t k = 0; k < 3; ++k)
       sphere.row(v) += place.weights[k] * working_sphere.row(mesh.faces(place.face, static_cast<Eigen::Index>(k)));
-    sphere.row(v).normalize();
+    const double length = sphere.row(v).norm();
+    if (length > 0) {
+      sphere.row(v) /= length;
+    } else {  // the middle of a face that spans a hemisphere
+      sphere.row(v) = working_sphere.row(mesh.faces(place.face, 0));
+    }
   }
   return sphere;
 }

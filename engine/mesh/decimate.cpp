@@ -167,8 +167,8 @@ std::optional<DecimatedMesh> decimate(const TriMesh& mesh, std::int32_t vertices
   Mesh work = cgal_mesh(points, mesh.faces);
   std::vector<std::int32_t> into(at(points.rows()));
   std::iota(into.begin(), into.end(), 0);
-  // Shortest edges first: triangles of even size and shape are what the parametrisation of a thin limb needs. Quadrics and volume
-  // follow the surface more closely, but of every third TOSCA shape they make one that only the last resorts can parametrise.
+  // Shortest edges first: triangles of even size and shape are what the parametrisation of a thin limb needs. Costs
+  // that follow the surface more closely leave uneven ones, of which only the last resorts make a sphere (docs/method.md).
   std::int64_t most_work = 100 * points.rows();
   sms::edge_collapse(work, Stop(3 * (std::int64_t{vertices} - 2), most_work),
                      CGAL::parameters::get_cost(sms::Edge_length_cost<Mesh>())
@@ -185,6 +185,7 @@ std::optional<DecimatedMesh> decimate(const TriMesh& mesh, std::int32_t vertices
     auto home = static_cast<std::int32_t>(v);
     while (into[at(home)] != home) home = into[at(home)] = into[at(into[at(home)])];
     result.places.push_back(walker.nearest(points.row(static_cast<Eigen::Index>(v)), number[at(home)]));
+    if (result.places.back().face < 0) return std::nullopt;  // distances that are no numbers
   }
   result.mesh.vertices = frame.undo(result.mesh.vertices);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
