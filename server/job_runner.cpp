@@ -117,6 +117,7 @@ void JobRunner::finish(const JobPointer& job, Outcome outcome) {
   {
     const std::lock_guard lock(mutex_);
     std::erase(running_, job);
+    queue_moved_ = Clock::now();  // from now on this worker has to take the next one
     // After cancel() the key may already stand for a newer job.
     const auto found = active_.find(job->key);
     const bool active = found != active_.end() && found->second == job;

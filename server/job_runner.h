@@ -88,7 +88,7 @@ class JobRunner {
   std::deque<JobPointer> queue_;
   std::unordered_map<std::string, JobPointer> active_;
   std::vector<JobPointer> running_;  ///< includes cancelled ones that have not returned yet
-  Clock::time_point queue_moved_{};  ///< when a job was last taken from it, or came while it was empty
+  Clock::time_point queue_moved_{};  ///< when a job was last taken from it, came while it was empty, or could have been taken
   bool stopping_ = false;
   std::vector<std::jthread> workers_;
 };
