@@ -9,5 +9,5 @@ query="src=$(escaped "$1")&tgt=$(escaped "$2")&format=$(escaped "${3##*.}")&wait
 output=$3
 shift 3
 for parameter; do query="$query&${parameter%%=*}=$(escaped "${parameter#*=}")"; done
-call "$URL/match?$query" > "$output.part" || { rm -f "$output.part"; exit 1; }
+(call "$URL/match?$query") > "$output.part" || { rm -f "$output.part"; exit 1; }
 mv "$output.part" "$output"

@@ -10,5 +10,5 @@ input=$3 output=$4
 [ -r "$input" ] || fail "cannot read $input"
 shift 4
 for parameter; do query="$query&${parameter%%=*}=$(escaped "${parameter#*=}")"; done
-call -H 'Content-Type: application/x-npy' --data-binary "@$input" "$URL/transfer?$query" > "$output.part" || { rm -f "$output.part"; exit 1; }
+(call -H "Content-Type: application/x-npy" --data-binary "@$input" "$URL/transfer?$query") > "$output.part" || { rm -f "$output.part"; exit 1; }
 mv "$output.part" "$output"

@@ -41,7 +41,8 @@ class CurlScriptsTest(support.TestCase):
         with open(self.place + '/in.npy', 'wb') as file:
             file.write(array)
         self.run_script('transfer', a, b, 'in.npy', 'out.npy')
-        descr, values = support.read_npy(open(self.place + '/out.npy', 'rb').read())
+        with open(self.place + '/out.npy', 'rb') as file:
+            descr, values = support.read_npy(file.read())
         self.assertEqual((descr, len(values)), ('<i4', 162))
 
         self.run_script('delete', a, b)
@@ -50,7 +51,7 @@ class CurlScriptsTest(support.TestCase):
     def test_refusals_have_their_reason(self):
         with open(self.place + '/bad.off', 'w') as file:
             file.write('nothing')
-        self.assertIn('unsupported-format', self.run_script('upload', 'bad.off', code=1))
+        self.assertIn('malformed-mesh', self.run_script('upload', 'bad.off', code=1))
         self.assertIn('not-found', self.run_script('match', '0' * 32, '0' * 32, 'map.npz', code=1))
         self.assertFalse(os.path.exists(self.place + '/map.npz'))
         self.assertFalse(os.path.exists(self.place + '/map.npz.part'))

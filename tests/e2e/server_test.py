@@ -152,7 +152,7 @@ class ServerTest(support.TestCase):
         wrong = request('PUT', '/shapes', body=b'x')
         self.assert_problem(wrong, 405, 'method-not-allowed')
         self.assertEqual(wrong.headers['Allow'], 'POST, GET, HEAD')
-        self.assert_problem(request('POST', '/match', body=b'x'), 405, 'method-not-allowed')
+        self.assert_problem(request('POST', '/healthz', body=b'x'), 405, 'method-not-allowed')
         self.assert_problem(self.server.post(A, wait=61), 400, 'invalid-parameter')
         unknown = self.assert_problem(self.server.post(A, colour='red'), 400, 'invalid-parameter')
         self.assertIn('name, repair, simplify, wait', unknown['detail'])

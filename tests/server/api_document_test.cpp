@@ -11,7 +11,7 @@ namespace {
 using api::Json;
 
 TEST(ApiDocument, YamlKeepsItsTypesAndItsOrder) {
-  const Json json = json_of_yaml("b: 1\na: [true, 'true', null, '1', 1.5, x y]\n'200': {c: >-\n  two\n  lines\n}\n");
+  const Json json = json_of_yaml("b: 1\na: [true, 'true', null, '1', 1.5, x y]\n'200':\n  c: >-\n    two\n    lines\n");
   EXPECT_EQ(json.dump(), R"({"b":1,"a":[true,"true",null,"1",1.5,"x y"],"200":{"c":"two lines"}})");
   EXPECT_THROW((void)json_of_yaml("a: [1"), std::runtime_error);
 }
