@@ -24,7 +24,7 @@ class ClientTest(support.TestCase):
         self.assertIn('include/spherematch/client/client.h', installed)
         self.assertFalse([name for name in installed if 'engine' in name or 'server' in name], 'more than the client is installed')
 
-        run('cmake', '-S', ROOT + '/client/example', '-B', place + '/build', '-DCMAKE_PREFIX_PATH=' + place + '/prefix')
+        run('cmake', '-G', 'Ninja', '-S', ROOT + '/client/example', '-B', place + '/build', '-DCMAKE_PREFIX_PATH=' + place + '/prefix')
         run('cmake', '--build', place + '/build')
         for name, seed in (('a', 0.0), ('b', 1.0)):
             with open(f'{place}/{name}.off', 'wb') as file:
