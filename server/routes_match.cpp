@@ -106,12 +106,7 @@ HttpResponse get_match(const ServerContext& context, const HttpRequest& from) {
   context.shapes.require_usable(request.query.tgt);
   const std::string etag =
       weak_etag({"match", context.match_service.key_of(request.query), request.representation->format, canonical(request.fields)});
-  HttpResponse response{.status = 304, .content_type = {}, .body = {}, .headers = {}};
-  if (!names_etag(from.header("if-none-match"), etag)) response = compute(context, request);
-  response.headers.emplace_back("ETag", etag);
-  response.headers.emplace_back("Cache-Control", "private, no-cache");
-  response.headers.emplace_back("Vary", "Accept");
-  return response;
+  return answer_unless_known(from, etag, [&] { return compute(context, request); });
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ _LONGEST_WAIT = 60  # of one request
 _STREAM_PAUSE = 3600  # between two lines of a stream, one long match
 
 
-class Shape:
-    """A shape of the server. `info` is its shape object as it was last heard of; its members are attributes too."""
+class _Record:
+    """An object of the server as it was last heard of: `info` as JSON has it; its members are attributes too."""
 
     def __init__(self, info):
         self.info = info
@@ -24,6 +24,10 @@ class Shape:
             return self.__dict__['info'][name]
         except KeyError:
             raise AttributeError(name) from None
+
+
+class Shape(_Record):
+    """A shape, with the members of the shape object."""
 
     def __repr__(self):
         return f"<Shape {self.id} {self.name!r} {self.state}, {self.vertices} vertices>"
@@ -60,17 +64,8 @@ class Match:
         return len(self.vertex)
 
 
-class Job:
-    """A job of the server, as it was last heard of: `info` is the job object; its members are attributes too."""
-
-    def __init__(self, info):
-        self.info = info
-
-    def __getattr__(self, name):
-        try:
-            return self.__dict__['info'][name]
-        except KeyError:
-            raise AttributeError(name) from None
+class Job(_Record):
+    """A job, with the members of the job object."""
 
     @property
     def active(self):
