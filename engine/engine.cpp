@@ -91,6 +91,19 @@ SphereBranch parametrize(const TriMesh& mesh, const PreprocessParameters& parame
   return result;
 }
 
+std::vector<SignalGrid> signal_grids(const PreprocessedShape& shape, const Triangles& faces, const PreprocessParameters& parameters) {
+  std::vector<std::string> names;
+  for (const double time : parameters.hks_times) names.push_back(hks_name(time));
+  for (const std::string& name : selection_signal_names()) names.push_back(name);
+  Eigen::MatrixXd signatures(shape.sphere.rows(), static_cast<Eigen::Index>(names.size()));
+  signatures << heat_kernel_signatures(shape.eigenvalues, shape.eigenvectors, parameters.hks_times),
+      selection_signals(shape.eigenvalues, shape.eigenvectors);
+  const std::vector<Grid> grids = rasterize_signals(shape.sphere, faces, signatures, parameters.signal_resolution);
+  std::vector<SignalGrid> result;
+  for (std::size_t i = 0; i < grids.size(); ++i) result.push_back({names[i], grids[i].matrix().cast<float>()});
+  return result;
+}
+
 }  // namespace
 
 std::string_view engine_version() { return "2"; }
@@ -132,10 +145,7 @@ PreprocessedShape preprocess(Surface surface, const PreprocessParameters& parame
   shape.sphere_quality = measure_sphere(shape.sphere, mesh);
   shape.eigenvalues = basis.values;
   shape.eigenvectors = basis.vectors.cast<float>();
-  const Eigen::MatrixXd signatures = heat_kernel_signatures(shape.eigenvalues, shape.eigenvectors, parameters.hks_times);
-  const std::vector<Grid> grids = rasterize_signals(shape.sphere, mesh.faces, signatures, parameters.signal_resolution);
-  for (std::size_t i = 0; i < grids.size(); ++i)
-    shape.signals.push_back({hks_name(parameters.hks_times[i]), grids[i].matrix().cast<float>()});
+  shape.signals = signal_grids(shape, mesh.faces, parameters);
   const double simplify_seconds = surface.decimated ? surface.decimated->seconds : 0;
   if (surface.decimated) shape.seconds.emplace_back("simplify", simplify_seconds);
   shape.seconds.insert(shape.seconds.end(), branch.seconds.begin(), branch.seconds.end());

@@ -77,6 +77,7 @@ MatchParameters MatchParameters::paper() {
   parameters.candidate_threshold = 0.1;
   parameters.fine_candidates = parameters.max_candidates;
   parameters.paper_selection = true;
+  parameters.mesh_flow = true;
   return parameters;
 }
 

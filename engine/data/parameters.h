@@ -71,6 +71,7 @@ struct MatchParameters {
   int flow_resolution = 16;
   int flow_iterations = 6;        ///< per level
   double flow_smoothness = 0.05;  ///< alpha
+  bool mesh_flow = false;         ///< rasterises the moved meshes at each iteration as the paper does: slower, for comparison
 
   // Candidate selection (engine/register/selection.h)
   int fine_candidates = 2;       ///< only this many best ones go on after the coarser half of the levels

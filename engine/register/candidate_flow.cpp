@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "engine/data/parallel.h"
-#include "engine/register/composition.h"
+#include "engine/register/optical_flow.h"
 #include "engine/register/rotation.h"
 #include "engine/register/selection.h"
 
@@ -16,20 +16,17 @@ constexpr double kHintWeight = 0.1;
 /// Widths of the guiding deformation in radians: wide before the coarse levels, for proportions that differ, then narrower.
 constexpr double kCoarseGuide = 1.2, kFineGuide = 0.5;
 
+constexpr int kNodes = 128;  ///< resolution of the grids on which registrations are followed and compared
+
+std::unique_ptr<FlowSide> flow_side(const Side& side, const Eigen::Matrix3d& rotation, const MatchParameters& parameters) {
+  if (parameters.mesh_flow) return std::make_unique<MeshFlowSide>(side.faces, side.vertex_signals, side.sphere, rotation);
+  return std::make_unique<GridFlowSide>(side.flow, rotation, kNodes);
+}
+
 /// Rotation and flow are split evenly, so that exchanging the shapes gives the inverse map.
 Registration rotated(const Pair& pair, std::size_t candidate, const Eigen::Matrix3d& rotation, bool guided) {
   const Eigen::Matrix3d half = half_rotation(rotation);
-  return {.candidate = candidate,
-          .guided = guided,
-          .source = {&pair.source.mesh.faces, &pair.source.signals.flow, &pair.source.repair, pair.source.sphere * half.transpose()},
-          .target = {&pair.target.mesh.faces, &pair.target.signals.flow, &pair.target.repair, pair.target.sphere * half}};
-}
-
-void guide(Registration& registration, const std::vector<PlacedHint>& hints, double width) {
-  pull_together(registration.source.sphere, registration.target.sphere, hints, width);
-  // What repair cannot mend now, it may mend after the flow.
-  (void)registration.source.repair->repair(registration.source.sphere);
-  (void)registration.target.repair->repair(registration.target.sphere);
+  return {candidate, guided, flow_side(pair.source, half, pair.parameters), flow_side(pair.target, half.transpose(), pair.parameters)};
 }
 
 /// The hierarchy's levels `first` to `last` - 1.
@@ -41,26 +38,17 @@ FlowParameters flow_levels(const MatchParameters& parameters, std::size_t first,
   return flow;
 }
 
-void judge_signals(Registration& registration, const Pair& pair) {
-  const Points &s = registration.source.sphere, &t = registration.target.sphere;
-  const Triangles &source = pair.source.mesh.faces, &target = pair.target.mesh.faces;
-  const SideSignals &f = pair.source.signals, &g = pair.target.signals;
-  registration.locations = locate_all(s, PointLocation(t, target));
-  if (pair.parameters.paper_selection) {
-    registration.score = paper_cost(s, source, f.selection, t, target, g.selection, 128);
-    return;
-  }
-  registration.back = locate_back(registration);
-  registration.score = 0.5 * (registration_cost(f.selection, f.weights, g.selection, target, registration.locations) +
-                              registration_cost(g.selection, g.weights, f.selection, source, registration.back));
+/// Mean distance of the hints on the sphere where both shapes are registered, relative to the square root of its area.
+double hint_distance(const Registration& registration, const HintDirections& hints) {
+  const Points s = registration.source->warp().forward(hints.source), t = registration.target->warp().forward(hints.target);
+  return (s - t).rowwise().norm().mean() / std::sqrt(4 * std::numbers::pi);
 }
 
 void judge(Registration& registration, const Pair& pair) {
-  judge_signals(registration, pair);
-  if (pair.hints.empty()) return;
-  const double there = hint_distance(pair.hints, pair.target.mesh, registration.locations);
-  const double back = registration.back.empty() ? there : hint_distance(exchanged(pair.hints), pair.source.mesh, registration.back);
-  registration.score += kHintWeight * 0.5 * (there + back);
+  const Points s = registration.source->origins(kNodes), t = registration.target->origins(kNodes);
+  const auto& cost = pair.parameters.paper_selection ? paper_cost : registration_cost;
+  registration.score = cost(pair.source.selection, s, pair.target.selection, t, kNodes);
+  if (pair.hints.source.rows() > 0) registration.score += kHintWeight * hint_distance(registration, pair.hints);
 }
 
 }  // namespace
@@ -69,20 +57,22 @@ std::vector<Registration> start_registrations(const Pair& pair, const std::vecto
   std::vector<Registration> registrations;
   for (std::size_t i = 0; i < rotations.size(); ++i) {
     registrations.push_back(rotated(pair, i, rotations[i], false));
-    if (!pair.hints.empty()) registrations.push_back(rotated(pair, i, rotations[i], true));
+    if (pair.hints.source.rows() > 0) registrations.push_back(rotated(pair, i, rotations[i], true));
   }
   return registrations;
 }
 
 std::size_t flow_candidates(std::vector<Registration>& registrations, const Pair& pair, const Progress& progress, int threads) {
+  const bool hinted = pair.hints.source.rows() > 0;
   std::vector<std::size_t> order(registrations.size());
   std::iota(order.begin(), order.end(), 0);
   const auto better = [&](std::size_t i, std::size_t j) { return registrations[i].score < registrations[j].score; };
   const auto flow = [&](std::size_t first, std::size_t last) {
     run_parallel(order.size(), threads, [&](std::size_t i) {
       Registration& registration = registrations[order[i]];
-      if (registration.guided) guide(registration, pair.hints, first == 0 ? kCoarseGuide : kFineGuide);
-      flow_together(registration.source, registration.target, flow_levels(pair.parameters, first, last), progress);
+      if (registration.guided)
+        pull_together(*registration.source, *registration.target, pair.hints, first == 0 ? kCoarseGuide : kFineGuide);
+      flow_together(*registration.source, *registration.target, flow_levels(pair.parameters, first, last), progress);
       judge(registration, pair);
     });
     std::stable_sort(order.begin(), order.end(), better);
@@ -90,19 +80,15 @@ std::size_t flow_candidates(std::vector<Registration>& registrations, const Pair
 
   const std::size_t levels = pair.parameters.flow_times.size();
   // One more with hints: the best may be there guided and unguided.
-  const std::size_t fine = static_cast<std::size_t>(pair.parameters.fine_candidates) + (pair.hints.empty() ? 0 : 1);
+  const std::size_t fine = static_cast<std::size_t>(pair.parameters.fine_candidates) + (hinted ? 1 : 0);
   std::size_t coarse = 0;
-  if (order.size() > fine || !pair.hints.empty()) {
+  if (order.size() > fine || hinted) {
     coarse = levels / 2;
     flow(0, coarse);
     order.resize(std::min(fine, order.size()));
   }
   flow(coarse, levels);
   return order.front();
-}
-
-std::vector<Location> locate_back(const Registration& registration) {
-  return locate_all(registration.target.sphere, PointLocation(registration.source.sphere, *registration.source.faces));
 }
 
 }  // namespace spherematch

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "engine/data/parameters.h"
 #include "engine/data/progress.h"
+#include "engine/register/flow_side.h"
 #include "engine/register/hints.h"
-#include "engine/register/optical_flow.h"
-#include "engine/register/point_location.h"
 #include "engine/register/side.h"
 
 namespace spherematch {
@@ -17,7 +17,7 @@ namespace spherematch {
 struct Pair {
   const Side& source;
   const Side& target;
-  const std::vector<PlacedHint>& hints;
+  const HintDirections& hints;
   const MatchParameters& parameters;
 };
 
@@ -25,9 +25,7 @@ struct Pair {
 struct Registration {
   std::size_t candidate;  ///< index of its rotation
   bool guided;            ///< pulled together at the hints before the flow
-  FlowShape source, target;
-  std::vector<Location> locations{};  ///< of the source's vertices in the target
-  std::vector<Location> back{};       ///< of the target's vertices in the source; empty where the selection needs none
+  std::unique_ptr<FlowSide> source, target;
   double score = 0;
 };
 
@@ -39,7 +37,5 @@ struct Registration {
 /// @throws EngineError(cancelled)
 [[nodiscard]] std::size_t flow_candidates(std::vector<Registration>& registrations, const Pair& pair, const Progress& progress,
                                           int threads);
-
-[[nodiscard]] std::vector<Location> locate_back(const Registration& registration);
 
 }  // namespace spherematch

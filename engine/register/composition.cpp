@@ -1,8 +1,10 @@
 #include "engine/register/composition.h"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
+#include "engine/data/parallel.h"
 #include "engine/mesh/closest_point.h"
 
 namespace spherematch {
@@ -29,9 +31,13 @@ std::int32_t nearest_corner(const Surface& target, const Location& location) {
 
 }  // namespace
 
-std::vector<Location> locate_all(const Points& source_sphere, const PointLocation& target) {
-  std::vector<Location> result(static_cast<std::size_t>(source_sphere.rows()));
-  for (Eigen::Index v = 0; v < source_sphere.rows(); ++v) result[static_cast<std::size_t>(v)] = target.locate(source_sphere.row(v));
+std::vector<Location> locate_all(const Points& points, const PointLocation& target, int threads) {
+  constexpr std::size_t kRun = 4096;
+  std::vector<Location> result(static_cast<std::size_t>(points.rows()));
+  run_parallel((result.size() + kRun - 1) / kRun, threads, [&](std::size_t run) {
+    const std::size_t end = std::min(result.size(), (run + 1) * kRun);
+    for (std::size_t i = run * kRun; i < end; ++i) result[i] = target.locate(points.row(static_cast<Eigen::Index>(i)));
+  });
   return result;
 }
 

@@ -6,9 +6,8 @@
 
 namespace spherematch {
 
-/// For each vertex of the source sphere its place on the target sphere, both registered; on the surfaces' own numbering.
-/// Exchanging the arguments gives the inverse of the same piecewise map.
-[[nodiscard]] std::vector<Location> locate_all(const Points& source_sphere, const PointLocation& target);
+/// The place of each point (P, 3) on the target's sphere, found on up to `threads` threads.
+[[nodiscard]] std::vector<Location> locate_all(const Points& points, const PointLocation& target, int threads = 1);
 
 /// The map between uploads, from the locations of all vertices of source.mesh in target.mesh.
 [[nodiscard]] Correspondence compose(const Surface& source, const Surface& target, const std::vector<Location>& locations);

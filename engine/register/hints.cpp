@@ -28,13 +28,6 @@ VertexMean place(const Surface& surface, std::int32_t vertex, const char* side) 
   return {{corners[0], corners[1], corners[2]}, {weights[0], weights[1], weights[2]}};
 }
 
-/// Unit vectors, one row per hint.
-Points directions(const Points& sphere, const std::vector<PlacedHint>& hints, VertexMean PlacedHint::*side) {
-  Points result(static_cast<Eigen::Index>(hints.size()), 3);
-  for (std::size_t i = 0; i < hints.size(); ++i) result.row(static_cast<Eigen::Index>(i)) = (hints[i].*side).of(sphere).normalized();
-  return result;
-}
-
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 /// A smooth tangent field: a sum of bumps around a few centres.
@@ -49,18 +42,27 @@ class BumpField {
     amplitudes_ = system.llt().solve(displacements);
   }
 
-  void advect(Points& points, double step) const {
-    for (Eigen::Index v = 0; v < points.rows(); ++v) {
-      const Eigen::Vector3d p = points.row(v);
-      Eigen::Vector3d value = Eigen::Vector3d::Zero();
-      for (Eigen::Index i = 0; i < centers_.rows(); ++i) value += bump(centers_.row(i).dot(p)) * amplitudes_.row(i).transpose();
-      points.row(v) = geodesic_step(p, step * (value - value.dot(p) * p));
-    }
+  [[nodiscard]] TangentField on_grid() const {
+    constexpr int kResolution = 128;
+    TangentGrid grid{Grid(kResolution, kResolution), Grid(kResolution, kResolution)};
+    for (int j = 0; j < kResolution; ++j)
+      for (int i = 0; i < kResolution; ++i) {
+        const double colatitude = std::numbers::pi * (j + 0.5) / kResolution, longitude = 2 * std::numbers::pi * (i + 0.5) / kResolution;
+        const Eigen::Vector3d value = at(sphere_point(colatitude, longitude));
+        grid.colatitude(j, i) = value.dot(sphere_point(colatitude + 0.5 * std::numbers::pi, longitude));
+        grid.longitude(j, i) = value.dot(Eigen::Vector3d(-std::sin(longitude), std::cos(longitude), 0));
+      }
+    return TangentField(grid);
   }
 
  private:
   static constexpr double kSlack = 0.05;  ///< against overshooting between hints that contradict each other
 
+  [[nodiscard]] Eigen::Vector3d at(const Eigen::Vector3d& p) const {
+    Eigen::Vector3d value = Eigen::Vector3d::Zero();
+    for (Eigen::Index i = 0; i < centers_.rows(); ++i) value += bump(centers_.row(i).dot(p)) * amplitudes_.row(i).transpose();
+    return value;
+  }
   [[nodiscard]] double bump(double cosine) const { return std::exp((cosine - 1) * sharpness_); }
 
   Points centers_;
@@ -76,12 +78,22 @@ std::vector<PlacedHint> place_hints(const Surface& source, const Surface& target
   return placed;
 }
 
-std::optional<Eigen::Matrix3d> rotation_from_hints(const Points& source_sphere, const Points& target_sphere,
-                                                   const std::vector<PlacedHint>& hints) {
+HintDirections directions(const std::vector<PlacedHint>& hints, const Points& source_sphere, const Points& target_sphere) {
+  const auto count = static_cast<Eigen::Index>(hints.size());
+  HintDirections result{Points(count, 3), Points(count, 3)};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const PlacedHint& hint = hints[static_cast<std::size_t>(i)];
+    result.source.row(i) = hint.source.of(source_sphere).normalized();
+    result.target.row(i) = hint.target.of(target_sphere).normalized();
+  }
+  return result;
+}
+
+std::optional<Eigen::Matrix3d> rotation_from_hints(const HintDirections& hints) {
   constexpr int kIterations = 30;
   constexpr double kSmallAngle = 0.1;  // below it the weight does not grow any more
   constexpr double kDetermined = 0.1;  // of the second singular value against the first
-  const Points from = directions(source_sphere, hints, &PlacedHint::source), to = directions(target_sphere, hints, &PlacedHint::target);
+  const Points &from = hints.source, &to = hints.target;
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(from.rows());
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   for (int iteration = 0; iteration < kIterations; ++iteration) {
@@ -97,11 +109,11 @@ std::optional<Eigen::Matrix3d> rotation_from_hints(const Points& source_sphere, 
   return rotation;
 }
 
-void pull_together(Points& source_sphere, Points& target_sphere, const std::vector<PlacedHint>& hints, double width) {
+void pull_together(FlowSide& source, FlowSide& target, const HintDirections& hints, double width) {
   constexpr int kSteps = 8;
   constexpr double kFar = 0.8;  // radians; beyond it a hint pulls less and less
   for (int step = 0; step < kSteps; ++step) {
-    const Points from = directions(source_sphere, hints, &PlacedHint::source), to = directions(target_sphere, hints, &PlacedHint::target);
+    const Points from = source.warp().forward(hints.source), to = target.warp().forward(hints.target);
     Points centers(from.rows(), 3), displacements(from.rows(), 3);
     Eigen::VectorXd weights(from.rows());
     Eigen::Index used = 0;
@@ -117,28 +129,10 @@ void pull_together(Points& source_sphere, Points& target_sphere, const std::vect
     }
     if (used == 0) return;
     const BumpField field(centers.topRows(used), displacements.topRows(used), weights.head(used), width);
-    field.advect(source_sphere, 0.5);
-    field.advect(target_sphere, -0.5);
+    const auto on_grid = std::make_shared<const TangentField>(field.on_grid());
+    source.move(on_grid, 0.5);
+    target.move(on_grid, -0.5);
   }
-}
-
-double hint_distance(const std::vector<PlacedHint>& hints, const TriMesh& target, const std::vector<Location>& locations) {
-  double sum = 0;
-  for (const PlacedHint& hint : hints) {
-    Eigen::Vector3d image = Eigen::Vector3d::Zero();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Location& at = locations[static_cast<std::size_t>(hint.source.vertices[k])];
-      const VertexMean corner{{target.faces(at.face, 0), target.faces(at.face, 1), target.faces(at.face, 2)}, at.bary};
-      image += hint.source.weights[static_cast<Eigen::Index>(k)] * corner.of(target.vertices);
-    }
-    sum += (image - hint.target.of(target.vertices)).norm();
-  }
-  return sum / static_cast<double>(hints.size()) / std::sqrt(face_areas(target.vertices, target.faces).sum());
-}
-
-std::vector<PlacedHint> exchanged(std::vector<PlacedHint> hints) {
-  for (PlacedHint& hint : hints) std::swap(hint.source, hint.target);
-  return hints;
 }
 
 }  // namespace spherematch

@@ -11,7 +11,7 @@
 #include "engine/data/parameters.h"
 #include "engine/data/surface.h"
 #include "engine/data/tri_mesh.h"
-#include "engine/register/point_location.h"
+#include "engine/register/flow_side.h"
 
 namespace spherematch {
 
@@ -30,25 +30,24 @@ struct PlacedHint {
   VertexMean target;
 };
 
+/// Unit vectors, one row per hint: where hints lie on the two prepared spheres.
+struct HintDirections {
+  Points source;
+  Points target;
+};
+
 /// @throws EngineError(invalid_parameter) where a hint is outside of an upload or on a dropped vertex
 [[nodiscard]] std::vector<PlacedHint> place_hints(const Surface& source, const Surface& target, const std::vector<Hint>& hints);
 
 /// The rotation that brings the hints of the source sphere nearest to those of the target sphere, in a sum of angles that single
 /// wrong hints hardly move: Kabsch's solution, reweighted. Nothing where the hints do not determine a rotation, being less than two
 /// or near one axis.
-[[nodiscard]] std::optional<Eigen::Matrix3d> rotation_from_hints(const Points& source_sphere, const Points& target_sphere,
-                                                                 const std::vector<PlacedHint>& hints);
+[[nodiscard]] std::optional<Eigen::Matrix3d> rotation_from_hints(const HintDirections& hints);
 
-/// Moves both spheres half way, by a smooth deformation that brings the hints nearer to each other and reaches about `width` radians
-/// around them. Hints that are far apart, as wrong ones among right ones are, pull less; beyond a right angle not at all. Faces may be
-/// flipped afterwards.
-void pull_together(Points& source_sphere, Points& target_sphere, const std::vector<PlacedHint>& hints, double width);
+[[nodiscard]] HintDirections directions(const std::vector<PlacedHint>& hints, const Points& source_sphere, const Points& target_sphere);
 
-/// Mean straight distance, relative to the square root of the target's area, between the images of the hints' sources and their
-/// targets. `locations` are those of the source's vertices in the target.
-[[nodiscard]] double hint_distance(const std::vector<PlacedHint>& hints, const TriMesh& target, const std::vector<Location>& locations);
-
-/// Source and target exchanged.
-[[nodiscard]] std::vector<PlacedHint> exchanged(std::vector<PlacedHint> hints);
+/// Moves both sides half way, by a smooth deformation that brings the hints nearer to each other and reaches about `width` radians
+/// around them. Hints that are far apart, as wrong ones among right ones are, pull less; beyond a right angle not at all.
+void pull_together(FlowSide& source, FlowSide& target, const HintDirections& hints, double width);
 
 }  // namespace spherematch

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/sphere/advection.h"
-#include "engine/sphere/rasterizer.h"
 
 namespace spherematch {
 namespace {
@@ -102,21 +101,15 @@ class FlowSystem {
   double strength_ = 0;
 };
 
-std::vector<Harmonics> level_signals(const FlowShape& shape, const FlowLevel& level, const HarmonicTransform& transform) {
-  Eigen::MatrixXd values(shape.signals->rows(), static_cast<Eigen::Index>(level.channels.size()));
-  for (std::size_t c = 0; c < level.channels.size(); ++c) values.col(static_cast<Eigen::Index>(c)) = shape.signals->col(level.channels[c]);
-  std::vector<Harmonics> result;
-  for (const Grid& grid : rasterize_signals(shape.sphere, *shape.faces, values, level.resolution)) {
-    Harmonics a = transform.analyze(grid);
-    smooth(transform.degree(), cutoff_smoothing(level.resolution / 2, 100), a);
-    result.push_back(std::move(a));
-  }
+std::vector<Harmonics> level_signals(const FlowSide& side, const FlowLevel& level, const HarmonicTransform& transform) {
+  std::vector<Harmonics> result = side.signals(level.channels, transform);
+  for (Harmonics& a : result) smooth(transform.degree(), cutoff_smoothing(level.resolution / 2, 100), a);
   return result;
 }
 
 }  // namespace
 
-void flow_together(FlowShape& source, FlowShape& target, const FlowParameters& parameters, const Progress& progress) {
+void flow_together(FlowSide& source, FlowSide& target, const FlowParameters& parameters, const Progress& progress) {
   for (const FlowLevel& level : parameters.levels) {
     const int degree = level.resolution / 2 - 1;
     const HarmonicTransform transform(level.resolution, degree), fine(std::max(level.resolution, kFieldResolution), degree);
@@ -128,14 +121,11 @@ void flow_together(FlowShape& source, FlowShape& target, const FlowParameters& p
       for (std::size_t c = 0; c < f.size(); ++c) system.add_channel(f[c], g[c]);
       Harmonics stream = system.solve();
       smooth(degree, cutoff_smoothing(level.resolution / 2, 100.0 * level.resolution), stream);
-      const TangentField flow(fine.synthesize_tangent(zero, stream));
-      advect(source.sphere, flow, 0.5);
-      advect(target.sphere, flow, -0.5);
+      const auto field = std::make_shared<const TangentField>(fine.synthesize_tangent(zero, stream));
+      source.move(field, 0.5);
+      target.move(field, -0.5);
     }
   }
-  // A pair that repair cannot mend is still located correctly but for the flipped faces; the quality reports them.
-  (void)source.repair->repair(source.sphere);
-  (void)target.repair->repair(target.sphere);
 }
 
 }  // namespace spherematch

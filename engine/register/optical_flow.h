@@ -5,9 +5,7 @@
 #include <vector>
 
 #include "engine/data/progress.h"
-#include "engine/data/tri_mesh.h"
-#include "engine/sphere/flip_repair.h"
-#include "engine/sphere/harmonics.h"
+#include "engine/register/flow_side.h"
 
 namespace spherematch {
 
@@ -15,7 +13,7 @@ namespace spherematch {
 struct FlowLevel {
   int resolution;
   int iterations;
-  std::vector<Eigen::Index> channels;  ///< columns of FlowShape::signals that drive this level
+  std::vector<Eigen::Index> channels;  ///< of the sides' signals: what drives this level
 };
 
 struct FlowParameters {
@@ -23,19 +21,10 @@ struct FlowParameters {
   double smoothness = 0.05;  ///< alpha
 };
 
-/// A shape on its way: the signals stay with the vertices while the flow moves them.
-struct FlowShape {
-  const Triangles* faces;          ///< (F, 3), not owned
-  const Eigen::MatrixXd* signals;  ///< (V, C), not owned
-  const FlipRepair* repair;        ///< of the faces, not owned
-  Points sphere;                   ///< (V, 3)
-};
-
 /// Moves both shapes half way towards each other, level by level. Each iteration minimises, over tangent fields W = p x grad u,
 ///   sum over channels and both shapes of (<grad f_i, W> - (f_S - f_T))^2 + alpha (Laplacian u)^2
-/// in spherical harmonics (no poles) by conjugate gradients, smooths u, and advects the source by W/2 and the target by -W/2.
-/// Neither sphere has a flipped face afterwards where repair allows.
+/// in spherical harmonics (no poles) by conjugate gradients, smooths u, and moves the source by W/2 and the target by -W/2.
 /// @throws EngineError(cancelled)
-void flow_together(FlowShape& source, FlowShape& target, const FlowParameters& parameters, const Progress& progress);
+void flow_together(FlowSide& source, FlowSide& target, const FlowParameters& parameters, const Progress& progress);
 
 }  // namespace spherematch

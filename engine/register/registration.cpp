@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
-#include <memory>
+#include <utility>
+#include <vector>
 
 #include "engine/register/candidate_flow.h"
 #include "engine/register/composition.h"
 #include "engine/register/hints.h"
 #include "engine/register/mirror.h"
+#include "engine/register/point_location.h"
 #include "engine/register/rotation.h"
 #include "engine/register/side.h"
+#include "engine/sphere/flip_repair.h"
 #include "engine/sphere/harmonics.h"
 #include "engine/sphere/orientation.h"
 
@@ -31,17 +34,14 @@ class Stopwatch {
 };
 
 /// The best rotations of the stored signals and, where hints determine one, that of the hints, by falling correlation.
-std::vector<RotationCandidate> find_candidates(const PreprocessedShape& source, bool mirrored, const PreprocessedShape& target,
-                                               const std::vector<PlacedHint>& hints, const MatchParameters& parameters) {
-  const Eigen::MatrixXf s = rotation_grid(source, parameters, mirrored), t = rotation_grid(target, parameters, false);
-  const auto finest = static_cast<int>(std::min(s.rows(), t.rows()));
+std::vector<RotationCandidate> find_candidates(const Side& source, const Side& target, const HintDirections& hints,
+                                               const MatchParameters& parameters) {
+  const auto finest = static_cast<int>(std::min(source.rotation.rows(), target.rotation.rows()));
   const int degree = std::min(parameters.rotation_bandwidth, finest / 2) - 1;
-  const auto harmonics = [degree](const Eigen::MatrixXf& grid) {
-    return HarmonicTransform(static_cast<int>(grid.rows()), degree).analyze(grid.cast<double>().array());
-  };
-  const std::vector<Harmonics> f{harmonics(s)}, g{harmonics(t)};
+  const auto harmonics = [degree](const Grid& grid) { return HarmonicTransform(static_cast<int>(grid.rows()), degree).analyze(grid); };
+  const std::vector<Harmonics> f{harmonics(source.rotation)}, g{harmonics(target.rotation)};
   std::vector<RotationCandidate> candidates = align_rotations(f, g, degree, parameters);
-  if (const auto hinted = rotation_from_hints(mirrored ? mirrored_points(source.sphere) : source.sphere, target.sphere, hints)) {
+  if (const auto hinted = rotation_from_hints(hints)) {
     const RotationCandidate extra{*hinted, rotation_correlation(f, g, degree, *hinted)};
     const auto better = [](const RotationCandidate& a, const RotationCandidate& b) { return a.correlation > b.correlation; };
     candidates.insert(std::upper_bound(candidates.begin(), candidates.end(), extra, better), extra);
@@ -51,30 +51,21 @@ std::vector<RotationCandidate> find_candidates(const PreprocessedShape& source, 
 
 /// All that is done with the source as it is, or with its mirror image.
 struct Attempt {
-  explicit Attempt(bool as_mirror_image) : mirrored(as_mirror_image) {}
-
-  bool mirrored;
-  std::vector<RotationCandidate> candidates;
-  std::unique_ptr<const Side> source;  ///< stays in place: the registrations refer to it
-  std::vector<Registration> registrations;
+  Side source;
+  HintDirections hints;
+  std::vector<RotationCandidate> candidates{};
+  std::vector<Registration> registrations{};
   std::size_t chosen = 0;
 
   [[nodiscard]] const Registration& best() const { return registrations[chosen]; }
 };
-
-std::vector<Attempt> attempts_for(Orientation orientation) {
-  std::vector<Attempt> attempts;
-  if (orientation != Orientation::reverse) attempts.emplace_back(false);
-  if (orientation != Orientation::preserve) attempts.emplace_back(true);
-  return attempts;
-}
 
 /// A rotation with the score of its chosen registration, else of its best.
 CandidateSummary summarize(const Attempt& attempt, std::size_t candidate, bool in_best_attempt) {
   CandidateSummary summary;
   const Eigen::Matrix3d rotation = attempt.candidates[candidate].rotation;
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(summary.rotation.data()) =
-      attempt.mirrored ? rotation * mirror_matrix() : rotation;
+      attempt.source.mirrored ? rotation * mirror_matrix() : rotation;
   summary.correlation = attempt.candidates[candidate].correlation;
   summary.chosen = in_best_attempt && attempt.best().candidate == candidate;
   summary.score = std::numeric_limits<double>::infinity();
@@ -93,41 +84,37 @@ std::vector<CandidateSummary> summarize_all(const std::vector<Attempt>& attempts
   return summaries;
 }
 
-MatchQuality measure_map(const Registration& best, const std::vector<CandidateSummary>& candidates) {
+double runner_up_score(const std::vector<CandidateSummary>& candidates) {
   double runner_up = 0;
   for (const CandidateSummary& candidate : candidates)
     if (!candidate.chosen && (runner_up == 0 || candidate.score < runner_up)) runner_up = candidate.score;
-  return {
-      {"flipped_source", static_cast<double>(flipped_faces(best.source.sphere, *best.source.faces).size())},
-      {"flipped_target", static_cast<double>(flipped_faces(best.target.sphere, *best.target.faces).size())},
-      {"score", best.score},
-      {"score_runner_up", runner_up},
-  };
+  return runner_up;
 }
 
-// Where a surface is decimated, the registration is of the coarser copies. Then the surfaces themselves are spread over the same
-// registered spheres, and the vertices of one are located in the faces of the other.
+/// A surface, or its mirror image, spread over its prepared sphere.
+struct SpreadSurface {
+  SpreadSurface(const PreprocessedShape& shape, bool mirrored)
+      : surface(shape.surface),
+        sphere(spread_over(surface, mirrored ? mirrored_points(shape.sphere) : shape.sphere)),
+        faces(mirrored ? mirrored_faces(surface.mesh.faces) : surface.mesh.faces) {}
 
-bool is_coarse(const Surface& source, const Surface& target) { return source.decimated || target.decimated; }
+  const Surface& surface;
+  Points sphere;    ///< (V, 3), of the vertices of surface.mesh
+  Triangles faces;  ///< oriented like `sphere`
+};
 
-Correspondence forward_map(const Surface& source, const Surface& target, const Registration& best) {
-  if (!is_coarse(source, target)) return compose(source, target, best.locations);
-  const Points from = spread_over(source, best.source.sphere), to = spread_over(target, best.target.sphere);
-  return compose(source, target, locate_all(from, PointLocation(to, target.mesh.faces)));
-}
+struct HalfMap {
+  std::vector<Location> locations;  ///< of the vertices of one surface in the faces of the other
+  std::size_t flipped = 0;          ///< faces that the map turns over
+};
 
-Correspondence reverse_map(const Surface& source, const Surface& target, const Attempt& attempt) {
-  const Registration& best = attempt.best();
-  std::vector<Location> back = best.back;
-  if (is_coarse(source, target)) {
-    const Points from = spread_over(target, best.target.sphere), to = spread_over(source, best.source.sphere);
-    const Triangles faces = attempt.mirrored ? mirrored_faces(source.mesh.faces) : source.mesh.faces;
-    back = locate_all(from, PointLocation(to, faces));
-  } else if (back.empty()) {
-    back = locate_back(best);
-  }
-  if (attempt.mirrored) std::transform(back.begin(), back.end(), back.begin(), mirrored_location);
-  return compose(target, source, back);
+/// One direction of a registration: carries the vertices of `from` to the registered sphere, and back from there to that of `to`.
+HalfMap map_vertices(const SpreadSurface& from, const Warp& there, const SpreadSurface& to, const Warp& back, int threads) {
+  HalfMap result;
+  Points images = back.backward(there.forward(from.sphere, threads), threads);
+  if (!FlipRepair(from.surface.mesh.vertices, from.faces).repair(images)) result.flipped = flipped_faces(images, from.faces).size();
+  result.locations = locate_all(images, PointLocation(to.sphere, to.faces), threads);
+  return result;
 }
 
 }  // namespace
@@ -142,16 +129,20 @@ MatchResult register_pair(const PreprocessedShape& source_shape, const Preproces
 
   report("rotation", 0);
   const std::vector<PlacedHint> hints = place_hints(source_shape.surface, target_shape.surface, parameters.hints);
-  std::vector<Attempt> attempts = attempts_for(parameters.orientation);
-  for (Attempt& attempt : attempts) attempt.candidates = find_candidates(source_shape, attempt.mirrored, target_shape, hints, parameters);
+  const Side target(target_shape, parameters, false);
+  std::vector<Attempt> attempts;
+  for (const bool mirrored : {false, true}) {
+    if (parameters.orientation == (mirrored ? Orientation::preserve : Orientation::reverse)) continue;
+    Side source(source_shape, parameters, mirrored);
+    HintDirections placed = directions(hints, source.sphere, target.sphere);
+    attempts.push_back({std::move(source), std::move(placed)});
+  }
+  for (Attempt& attempt : attempts) attempt.candidates = find_candidates(attempt.source, target, attempt.hints, parameters);
   result.seconds.emplace_back("rotation", watch.lap());
 
   report("flow", 0.1);
-  const SideSignals source_signals(source_shape, parameters), target_signals(target_shape, parameters);
-  const Side target(target_shape, target_signals, false);
   for (Attempt& attempt : attempts) {
-    attempt.source = std::make_unique<const Side>(source_shape, source_signals, attempt.mirrored);
-    const Pair pair{*attempt.source, target, hints, parameters};
+    const Pair pair{attempt.source, target, attempt.hints, parameters};
     std::vector<Eigen::Matrix3d> rotations;
     for (const RotationCandidate& candidate : attempt.candidates) rotations.push_back(candidate.rotation);
     attempt.registrations = start_registrations(pair, rotations);
@@ -159,14 +150,24 @@ MatchResult register_pair(const PreprocessedShape& source_shape, const Preproces
   }
   result.seconds.emplace_back("flow", watch.lap());
 
-  report("correspondence", 0.95);
+  report("correspondence", 0.9);
   const Attempt& best = *std::min_element(attempts.begin(), attempts.end(),
                                           [](const Attempt& a, const Attempt& b) { return a.best().score < b.best().score; });
-  result.reversed = best.mirrored;
+  result.reversed = best.source.mirrored;
   result.candidates = summarize_all(attempts, best);
-  result.map = forward_map(source_shape.surface, target_shape.surface, best.best());
-  if (parameters.both) result.reverse = reverse_map(source_shape.surface, target_shape.surface, best);
-  result.quality = measure_map(best.best(), result.candidates);
+  const SpreadSurface from(source_shape, best.source.mirrored), to(target_shape, false);
+  const Warp &there = best.best().source->warp(), &back = best.best().target->warp();
+  const HalfMap forward = map_vertices(from, there, to, back, threads);
+  result.map = compose(from.surface, to.surface, forward.locations);
+  result.quality = {{"flipped_source", static_cast<double>(forward.flipped)}};
+  if (parameters.both) {
+    HalfMap reverse = map_vertices(to, back, from, there, threads);
+    if (result.reversed) std::transform(reverse.locations.begin(), reverse.locations.end(), reverse.locations.begin(), mirrored_location);
+    result.reverse = compose(to.surface, from.surface, reverse.locations);
+    result.quality.emplace_back("flipped_target", static_cast<double>(reverse.flipped));
+  }
+  result.quality.emplace_back("score", best.best().score);
+  result.quality.emplace_back("score_runner_up", runner_up_score(result.candidates));
   result.seconds.emplace_back("correspondence", watch.lap());
   result.seconds.emplace_back("total", total.lap());
   report("correspondence", 1);

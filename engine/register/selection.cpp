@@ -2,48 +2,45 @@
 
 #include <cmath>
 
-#include "engine/spectrum/signatures.h"
 #include "engine/sphere/harmonics.h"
-#include "engine/sphere/rasterizer.h"
 
 namespace spherematch {
+namespace {
 
-Eigen::MatrixXd selection_signals(const PreprocessedShape& shape) {
-  constexpr int kEnergies = 16;
-  const Eigen::MatrixXd heat = heat_kernel_signatures(shape.eigenvalues, shape.eigenvectors, {0.003, 0.001}).array().max(1e-12).log();
-  const Eigen::MatrixXd wave = wave_kernel_signatures(shape.eigenvalues, shape.eigenvectors, kEnergies).rightCols(kEnergies / 2);
-  // Logarithms compare relative differences. The two heat signals and all wave energies together weigh alike.
-  Eigen::MatrixXd signals(heat.rows(), heat.cols() + wave.cols());
-  signals << heat, wave.array().max(1e-12).log().matrix() * (1.0 / static_cast<double>(wave.cols()));
-  return signals;
+double mean_over_sphere(const Grid& values) {
+  const Eigen::ArrayXd areas = cell_areas(static_cast<int>(values.rows())).array();
+  return (values.colwise() * areas).sum() / (areas.sum() * static_cast<double>(values.rows()));
 }
 
-double registration_cost(const Eigen::MatrixXd& source_signals, const Eigen::VectorXd& vertex_weights,
-                         const Eigen::MatrixXd& target_signals, const Triangles& target_faces, const std::vector<Location>& locations) {
-  double cost = 0;
-  for (Eigen::Index v = 0; v < source_signals.rows(); ++v) {
-    const Location& at = locations[static_cast<std::size_t>(v)];
-    const auto image = at.bary[0] * target_signals.row(target_faces(at.face, 0)) +
-                       at.bary[1] * target_signals.row(target_faces(at.face, 1)) +
-                       at.bary[2] * target_signals.row(target_faces(at.face, 2));
-    cost += vertex_weights[v] * (source_signals.row(v) - image).cwiseAbs().mean();
+}  // namespace
+
+double registration_cost(const GridSamples& source_signals, const Points& source_origins, const GridSamples& target_signals,
+                         const Points& target_origins, int resolution) {
+  Grid difference(resolution, resolution);
+  for (Eigen::Index node = 0; node < difference.size(); ++node) {
+    const GridSamples::Stencil source = source_signals.stencil(source_origins.row(node)),
+                               target = target_signals.stencil(target_origins.row(node));
+    double sum = 0;
+    for (std::size_t pack = 0; pack < source_signals.packs(); ++pack)
+      sum += (source_signals(source, pack) - target_signals(target, pack)).abs().sum();
+    difference.data()[node] = sum / static_cast<double>(source_signals.channels());
   }
-  return cost;
+  return mean_over_sphere(difference);
 }
 
-double paper_cost(const Points& source_sphere, const Triangles& source_faces, const Eigen::VectorXd& source_signal,
-                  const Points& target_sphere, const Triangles& target_faces, const Eigen::VectorXd& target_signal, int resolution) {
+double paper_cost(const GridSamples& source_signal, const Points& source_origins, const GridSamples& target_signal,
+                  const Points& target_origins, int resolution) {
   const int degree = resolution / 2 - 1;
   const double bandwidth = 0.5 * resolution, time = std::log(100.0) / (bandwidth * (bandwidth + 1));
   const HarmonicTransform transform(resolution, degree);
-  const auto smoothed = [&](const Points& sphere, const Triangles& faces, const Eigen::VectorXd& signal) {
-    Harmonics a = transform.analyze(rasterize_signals(sphere, faces, signal, resolution).front());
+  const auto smoothed = [&](const GridSamples& signal, const Points& origins) {
+    Grid values(resolution, resolution);
+    for (Eigen::Index node = 0; node < values.size(); ++node) values.data()[node] = signal(signal.stencil(origins.row(node)), 0)[0];
+    Harmonics a = transform.analyze(values);
     scale_degrees(degree, a, [time](int l) { return std::exp(-time * l * (l + 1)); });
     return transform.synthesize(a);
   };
-  const Grid difference = smoothed(source_sphere, source_faces, source_signal) - smoothed(target_sphere, target_faces, target_signal);
-  const Eigen::ArrayXd areas = cell_areas(resolution).array();
-  return (difference.abs().colwise() * areas).sum() / (areas.sum() * resolution);
+  return mean_over_sphere((smoothed(source_signal, source_origins) - smoothed(target_signal, target_origins)).abs());
 }
 
 }  // namespace spherematch

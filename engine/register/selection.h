@@ -2,25 +2,19 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
-#include "engine/data/preprocessed_shape.h"
-#include "engine/register/point_location.h"
+#include "engine/data/tri_mesh.h"
+#include "engine/sphere/grid_samples.h"
 
 namespace spherematch {
 
-/// Signals that tell a right registration from a turned one: what only feet, hands and faces show. One row per vertex.
-[[nodiscard]] Eigen::MatrixXd selection_signals(const PreprocessedShape& shape);
+/// Mean over the sphere, and over the channels, of the absolute difference of two shapes' signals. Row i of the origins (N * N, 3) is
+/// the point of the prepared sphere that is registered at cell centre i of a grid (engine/register/flow_side.h).
+[[nodiscard]] double registration_cost(const GridSamples& source_signals, const Points& source_origins, const GridSamples& target_signals,
+                                       const Points& target_origins, int resolution);
 
-/// Area-weighted mean over the source's vertices of |signal - signal of the target at the image|, averaged over the columns.
-/// `vertex_weights` sum to one.
-[[nodiscard]] double registration_cost(const Eigen::MatrixXd& source_signals, const Eigen::VectorXd& vertex_weights,
-                                       const Eigen::MatrixXd& target_signals, const Triangles& target_faces,
-                                       const std::vector<Location>& locations);
-
-/// The paper's cost: mean absolute difference over the sphere of two signals rasterised at `resolution` and smoothed.
-[[nodiscard]] double paper_cost(const Points& source_sphere, const Triangles& source_faces, const Eigen::VectorXd& source_signal,
-                                const Points& target_sphere, const Triangles& target_faces, const Eigen::VectorXd& target_signal,
-                                int resolution);
+/// The paper's cost: the same for one signal, smoothed before it is compared.
+[[nodiscard]] double paper_cost(const GridSamples& source_signal, const Points& source_origins, const GridSamples& target_signal,
+                                const Points& target_origins, int resolution);
 
 }  // namespace spherematch

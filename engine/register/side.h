@@ -6,32 +6,22 @@
 #include "engine/data/parameters.h"
 #include "engine/data/preprocessed_shape.h"
 #include "engine/data/tri_mesh.h"
-#include "engine/sphere/flip_repair.h"
+#include "engine/sphere/grid_samples.h"
 
 namespace spherematch {
 
-/// What does not change when the shape is mirrored. One row per vertex.
-struct SideSignals {
-  Eigen::MatrixXd flow;       ///< one column per flow time
-  Eigen::MatrixXd selection;  ///< engine/register/selection.h
-  Eigen::VectorXd weights;    ///< vertex areas, sum 1
-
-  SideSignals(const PreprocessedShape& shape, const MatchParameters& parameters);
-};
-
-/// A shape as it was prepared, or its mirror image. Immutable; refers to `signals`, which must outlive it.
+/// A shape as it was prepared, or its mirror image. Immutable.
 struct Side {
   bool mirrored;
-  const SideSignals& signals;
-  TriMesh mesh;   ///< consistently oriented like `sphere`; the vertices are those of the surface, mirrored or not
-  Points sphere;  ///< (V, 3)
-  FlipRepair repair;
+  Grid rotation;                   ///< the stored signal that rotations are aligned by
+  GridSamples flow;                ///< one channel per flow time
+  GridSamples selection;           ///< engine/register/selection.h
+  Points sphere;                   ///< (V, 3), of the vertices of the surface's working mesh
+  Triangles faces;                 ///< (F, 3), oriented like `sphere`
+  Eigen::MatrixXd vertex_signals;  ///< (V, flow times), where the flow moves meshes; else empty
 
-  Side(const PreprocessedShape& shape, const SideSignals& shape_signals, bool as_mirror_image);
+  /// @throws EngineError(invalid_parameter) when a time is none of those at which the shape's signals are stored
+  Side(const PreprocessedShape& shape, const MatchParameters& parameters, bool as_mirror_image);
 };
-
-/// The stored signal that rotations are aligned by, of the shape or of its mirror image.
-/// @throws EngineError(invalid_parameter) when no signal is stored at parameters.rotation_time
-[[nodiscard]] Eigen::MatrixXf rotation_grid(const PreprocessedShape& shape, const MatchParameters& parameters, bool mirrored);
 
 }  // namespace spherematch

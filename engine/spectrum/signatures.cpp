@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace spherematch {
+namespace {
+
+constexpr int kEnergies = 16;  ///< of which the upper half is used
+
+}  // namespace
 
 Eigen::MatrixXd heat_kernel_signatures(const Eigen::VectorXd& values, const Eigen::MatrixXf& vectors, const std::vector<double>& times) {
   Eigen::MatrixXd weights(values.size(), static_cast<Eigen::Index>(times.size()));
@@ -23,6 +28,20 @@ Eigen::MatrixXd wave_kernel_signatures(const Eigen::VectorXd& values, const Eige
     weights.col(e) /= weights.col(e).sum();
   }
   return vectors.cast<double>().cwiseAbs2() * weights;
+}
+
+std::vector<std::string> selection_signal_names() {
+  std::vector<std::string> names{"log_hks_0.003", "log_hks_0.001"};
+  for (int energy = kEnergies / 2; energy < kEnergies; ++energy) names.push_back("log_wks_" + std::to_string(energy));
+  return names;
+}
+
+Eigen::MatrixXd selection_signals(const Eigen::VectorXd& values, const Eigen::MatrixXf& vectors) {
+  const Eigen::MatrixXd heat = heat_kernel_signatures(values, vectors, {0.003, 0.001}).array().max(1e-12).log();
+  const Eigen::MatrixXd wave = wave_kernel_signatures(values, vectors, kEnergies).rightCols(kEnergies / 2).array().max(1e-12).log();
+  Eigen::MatrixXd signals(heat.rows(), heat.cols() + wave.cols());
+  signals << heat, wave / static_cast<double>(wave.cols());
+  return signals;
 }
 
 }  // namespace spherematch

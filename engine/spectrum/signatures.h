@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 namespace spherematch {
@@ -14,5 +15,13 @@ namespace spherematch {
 /// Wave kernel signatures (Aubry, Schlickewei, Cremers 2011) at `count` logarithmically spaced energies between the first positive
 /// and the largest eigenvalue, (V, count).
 [[nodiscard]] Eigen::MatrixXd wave_kernel_signatures(const Eigen::VectorXd& values, const Eigen::MatrixXf& vectors, int count);
+
+/// Names of the columns of selection_signals().
+[[nodiscard]] std::vector<std::string> selection_signal_names();
+
+/// Signals that tell a right registration from a turned one, what only feet, hands and faces show: logarithms of heat kernel signatures
+/// at small times and of wave kernel signatures at high energies, (V, selection_signal_names()). Scaled so that the two heat signals and
+/// all wave energies together weigh alike.
+[[nodiscard]] Eigen::MatrixXd selection_signals(const Eigen::VectorXd& values, const Eigen::MatrixXf& vectors);
 
 }  // namespace spherematch

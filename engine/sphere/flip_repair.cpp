@@ -10,15 +10,13 @@
 
 namespace spherematch {
 
-FlipRepair::FlipRepair(const TriMesh& surface)
-    : faces_(surface.face_count(), 3),
-      start_(static_cast<std::size_t>(surface.vertex_count()) + 1, 0),
-      face_(static_cast<std::size_t>(surface.faces.size())) {
-  const Eigen::VectorXd areas = face_areas(surface.vertices, surface.faces);
-  std::vector<std::int32_t> order(static_cast<std::size_t>(surface.face_count()));
+FlipRepair::FlipRepair(const Points& surface_vertices, const Triangles& faces)
+    : faces_(faces.rows(), 3), start_(static_cast<std::size_t>(surface_vertices.rows()) + 1, 0), face_(static_cast<std::size_t>(faces.size())) {
+  const Eigen::VectorXd areas = face_areas(surface_vertices, faces);
+  std::vector<std::int32_t> order(static_cast<std::size_t>(faces.rows()));
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&areas](std::int32_t f, std::int32_t g) { return areas[f] < areas[g]; });
-  for (std::size_t f = 0; f < order.size(); ++f) faces_.row(static_cast<Eigen::Index>(f)) = surface.faces.row(order[f]);
+  for (std::size_t f = 0; f < order.size(); ++f) faces_.row(static_cast<Eigen::Index>(f)) = faces.row(order[f]);
 
   for (Eigen::Index i = 0; i < faces_.size(); ++i) ++start_[static_cast<std::size_t>(faces_.data()[i]) + 1];
   for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];

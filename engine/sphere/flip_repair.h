@@ -13,7 +13,8 @@ namespace spherematch {
 class FlipRepair {
  public:
   /// Faces are treated in the order of their areas on the surface, so that the result does not depend on how they are numbered.
-  explicit FlipRepair(const TriMesh& surface);
+  explicit FlipRepair(const TriMesh& surface) : FlipRepair(surface.vertices, surface.faces) {}
+  FlipRepair(const Points& surface_vertices, const Triangles& faces);
 
   /// Widens thin and flipped faces, first to a comfortable height and, where that does not end, to a smaller one.
   /// Returns whether no face is flipped any more.

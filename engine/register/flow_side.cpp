@@ -1,0 +1,94 @@
+#include "engine/register/flow_side.h"
+
+#include <numbers>
+
+#include "engine/sphere/rasterizer.h"
+
+namespace spherematch {
+namespace {
+
+Points grid_nodes(int n) {
+  Points nodes(static_cast<Eigen::Index>(n) * n, 3);
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i)
+      nodes.row(static_cast<Eigen::Index>(j) * n + i) =
+          sphere_point(std::numbers::pi * (j + 0.5) / n, 2 * std::numbers::pi * (i + 0.5) / n);
+  return nodes;
+}
+
+/// The map of nodes to `origins`, between the nodes.
+class OriginSamples {
+ public:
+  OriginSamples(const Points& origins, int n) : samples_(coordinates(origins, n)) {}
+
+  [[nodiscard]] Points at(Points points) const {
+    for (Eigen::Index i = 0; i < points.rows(); ++i)
+      points.row(i) = samples_(samples_.stencil(points.row(i)), 0).head<3>().matrix().normalized();
+    return points;
+  }
+
+ private:
+  static std::vector<Grid> coordinates(const Points& origins, int n) {
+    std::vector<Grid> grids;
+    for (int k = 0; k < 3; ++k)
+      grids.emplace_back(Eigen::Map<const Grid, 0, Eigen::Stride<Eigen::Dynamic, 3>>(origins.data() + k, n, n, {3 * n, 3}));
+    return grids;
+  }
+
+  GridSamples samples_;
+};
+
+}  // namespace
+
+GridFlowSide::GridFlowSide(const GridSamples& signals, const Eigen::Matrix3d& rotation, int resolution)
+    : FlowSide(rotation), signals_(signals), resolution_(resolution), origins_(grid_nodes(resolution) * rotation) {}
+
+std::vector<Harmonics> GridFlowSide::signals(const std::vector<Eigen::Index>& channels, const HarmonicTransform& transform) const {
+  std::vector<Grid> grids(channels.size(), Grid(resolution_, resolution_));
+  for (Eigen::Index node = 0; node < origins_.rows(); ++node) {
+    const GridSamples::Stencil stencil = signals_.stencil(origins_.row(node));
+    for (std::size_t c = 0; c < channels.size(); ++c)
+      grids[c].data()[node] = signals_(stencil, static_cast<std::size_t>(channels[c] / 4))[channels[c] % 4];
+  }
+  const HarmonicTransform on_nodes(resolution_, transform.degree());
+  std::vector<Harmonics> result;
+  for (const Grid& grid : grids) result.push_back(on_nodes.analyze(grid));
+  return result;
+}
+
+Points GridFlowSide::origins(int resolution) const {
+  if (resolution == resolution_) return origins_;
+  return OriginSamples(origins_, resolution_).at(grid_nodes(resolution));
+}
+
+void GridFlowSide::move(const std::shared_ptr<const TangentField>& field, double step) {
+  warp_.append(field, step);
+  Points before = grid_nodes(resolution_);
+  advect(before, *field, -step);
+  origins_ = OriginSamples(origins_, resolution_).at(std::move(before));
+}
+
+void GridFlowSide::resample(int resolution) {
+  origins_ = origins(resolution);
+  resolution_ = resolution;
+}
+
+MeshFlowSide::MeshFlowSide(const Triangles& faces, const Eigen::MatrixXd& signals, const Points& sphere, const Eigen::Matrix3d& rotation)
+    : FlowSide(rotation), faces_(faces), signals_(signals), sphere_(sphere * rotation.transpose()) {}
+
+std::vector<Harmonics> MeshFlowSide::signals(const std::vector<Eigen::Index>& channels, const HarmonicTransform& transform) const {
+  Eigen::MatrixXd values(signals_.rows(), static_cast<Eigen::Index>(channels.size()));
+  for (std::size_t c = 0; c < channels.size(); ++c) values.col(static_cast<Eigen::Index>(c)) = signals_.col(channels[c]);
+  std::vector<Harmonics> result;
+  for (const Grid& grid : rasterize_signals(sphere_, faces_, values, transform.resolution())) result.push_back(transform.analyze(grid));
+  return result;
+}
+
+Points MeshFlowSide::origins(int resolution) const { return warp_.backward(grid_nodes(resolution)); }
+
+void MeshFlowSide::move(const std::shared_ptr<const TangentField>& field, double step) {
+  warp_.append(field, step);
+  advect(sphere_, *field, step);
+}
+
+}  // namespace spherematch

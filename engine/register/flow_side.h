@@ -1,0 +1,75 @@
+// One shape of a pair on its way to the other: its signals on the sphere, carried along by a growing warp.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "engine/data/tri_mesh.h"
+#include "engine/register/warp.h"
+#include "engine/sphere/grid_samples.h"
+#include "engine/sphere/harmonics.h"
+
+namespace spherematch {
+
+/// Used by one thread at a time.
+class FlowSide {
+ public:
+  virtual ~FlowSide() = default;
+
+  /// Carried along by all moves so far: the signals of the given channels, one after the other.
+  [[nodiscard]] virtual std::vector<Harmonics> signals(const std::vector<Eigen::Index>& channels,
+                                                       const HarmonicTransform& transform) const = 0;
+
+  /// For each cell centre of a grid, row by row, the point of the prepared sphere that was carried there, (N * N, 3).
+  [[nodiscard]] virtual Points origins(int resolution) const = 0;
+
+  /// Appends a step to the warp.
+  virtual void move(const std::shared_ptr<const TangentField>& field, double step) = 0;
+
+  [[nodiscard]] const Warp& warp() const { return warp_; }
+
+ protected:
+  explicit FlowSide(const Eigen::Matrix3d& rotation) : warp_(rotation) {}
+
+  Warp warp_;
+};
+
+/// Follows where the nodes of a grid come from, and reads there the signals of the prepared sphere. Its cost does not depend on the mesh.
+class GridFlowSide : public FlowSide {
+ public:
+  /// `signals`, not owned, lie on the prepared sphere.
+  GridFlowSide(const GridSamples& signals, const Eigen::Matrix3d& rotation, int resolution);
+
+  [[nodiscard]] std::vector<Harmonics> signals(const std::vector<Eigen::Index>& channels,
+                                               const HarmonicTransform& transform) const override;
+  [[nodiscard]] Points origins(int resolution) const override;
+  void move(const std::shared_ptr<const TangentField>& field, double step) override;
+
+  /// Follows the nodes of a grid of another resolution from now on.
+  void resample(int resolution);
+
+ private:
+  const GridSamples& signals_;
+  int resolution_;
+  Points origins_;  ///< of the nodes
+};
+
+/// Moves the vertices of the mesh and rasterises it anew for each call, as the paper does.
+class MeshFlowSide : public FlowSide {
+ public:
+  /// `faces` (F, 3) and `signals` (V, C) are not owned; `sphere` (V, 3) is the prepared sphere.
+  MeshFlowSide(const Triangles& faces, const Eigen::MatrixXd& signals, const Points& sphere, const Eigen::Matrix3d& rotation);
+
+  [[nodiscard]] std::vector<Harmonics> signals(const std::vector<Eigen::Index>& channels,
+                                               const HarmonicTransform& transform) const override;
+  [[nodiscard]] Points origins(int resolution) const override;
+  void move(const std::shared_ptr<const TangentField>& field, double step) override;
+
+ private:
+  const Triangles& faces_;
+  const Eigen::MatrixXd& signals_;
+  Points sphere_;
+};
+
+}  // namespace spherematch
