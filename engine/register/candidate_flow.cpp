@@ -16,11 +16,12 @@ constexpr double kHintWeight = 0.1;
 /// Widths of the guiding deformation in radians: wide before the coarse levels, for proportions that differ, then narrower.
 constexpr double kCoarseGuide = 1.2, kFineGuide = 0.5;
 
-constexpr int kNodes = 128;  ///< resolution of the grids on which registrations are followed and compared
+/// Resolutions of the grids on which registrations are followed and compared, through the coarse levels and the others.
+constexpr int kCoarseNodes = 64, kFineNodes = 128;
 
 std::unique_ptr<FlowSide> flow_side(const Side& side, const Eigen::Matrix3d& rotation, const MatchParameters& parameters) {
   if (parameters.mesh_flow) return std::make_unique<MeshFlowSide>(side.faces, side.vertex_signals, side.sphere, rotation);
-  return std::make_unique<GridFlowSide>(side.flow, rotation, kNodes);
+  return std::make_unique<GridFlowSide>(side.flow, rotation, kCoarseNodes);
 }
 
 /// Rotation and flow are split evenly, so that exchanging the shapes gives the inverse map.
@@ -44,10 +45,10 @@ double hint_distance(const Registration& registration, const HintDirections& hin
   return (s - t).rowwise().norm().mean() / std::sqrt(4 * std::numbers::pi);
 }
 
-void judge(Registration& registration, const Pair& pair) {
-  const Points s = registration.source->origins(kNodes), t = registration.target->origins(kNodes);
+void judge(Registration& registration, const Pair& pair, int nodes) {
+  const Points s = registration.source->origins(nodes), t = registration.target->origins(nodes);
   const auto& cost = pair.parameters.paper_selection ? paper_cost : registration_cost;
-  registration.score = cost(pair.source.selection, s, pair.target.selection, t, kNodes);
+  registration.score = cost(pair.source.selection, s, pair.target.selection, t, nodes);
   if (pair.hints.source.rows() > 0) registration.score += kHintWeight * hint_distance(registration, pair.hints);
 }
 
@@ -67,13 +68,14 @@ std::size_t flow_candidates(std::vector<Registration>& registrations, const Pair
   std::vector<std::size_t> order(registrations.size());
   std::iota(order.begin(), order.end(), 0);
   const auto better = [&](std::size_t i, std::size_t j) { return registrations[i].score < registrations[j].score; };
-  const auto flow = [&](std::size_t first, std::size_t last) {
+  const auto flow = [&](std::size_t first, std::size_t last, int nodes) {
+    const FlowPlan plan(flow_levels(pair.parameters, first, last), nodes);
     run_parallel(order.size(), threads, [&](std::size_t i) {
       Registration& registration = registrations[order[i]];
       if (registration.guided)
         pull_together(*registration.source, *registration.target, pair.hints, first == 0 ? kCoarseGuide : kFineGuide);
-      flow_together(*registration.source, *registration.target, flow_levels(pair.parameters, first, last), progress);
-      judge(registration, pair);
+      flow_together(*registration.source, *registration.target, plan, progress);
+      judge(registration, pair, plan.nodes());
     });
     std::stable_sort(order.begin(), order.end(), better);
   };
@@ -84,10 +86,10 @@ std::size_t flow_candidates(std::vector<Registration>& registrations, const Pair
   std::size_t coarse = 0;
   if (order.size() > fine || hinted) {
     coarse = levels / 2;
-    flow(0, coarse);
+    flow(0, coarse, kCoarseNodes);
     order.resize(std::min(fine, order.size()));
   }
-  flow(coarse, levels);
+  flow(coarse, levels, kFineNodes);
   return order.front();
 }
 

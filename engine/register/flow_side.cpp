@@ -21,10 +21,12 @@ class OriginSamples {
  public:
   OriginSamples(const Points& origins, int n) : samples_(coordinates(origins, n)) {}
 
-  [[nodiscard]] Points at(Points points) const {
-    for (Eigen::Index i = 0; i < points.rows(); ++i)
-      points.row(i) = samples_(samples_.stencil(points.row(i)), 0).head<3>().matrix().normalized();
-    return points;
+  [[nodiscard]] Points at(const Points& points) const {
+    Points result(points.rows(), 3);
+    samples_.for_each_stencil(points, [&](Eigen::Index i, const GridSamples::Stencil& stencil) {
+      result.row(i) = samples_(stencil, 0).head<3>().matrix().normalized();
+    });
+    return result;
   }
 
  private:
@@ -43,14 +45,13 @@ class OriginSamples {
 GridFlowSide::GridFlowSide(const GridSamples& signals, const Eigen::Matrix3d& rotation, int resolution)
     : FlowSide(rotation), signals_(signals), resolution_(resolution), origins_(grid_nodes(resolution) * rotation) {}
 
-std::vector<Harmonics> GridFlowSide::signals(const std::vector<Eigen::Index>& channels, const HarmonicTransform& transform) const {
+std::vector<Harmonics> GridFlowSide::signals(const std::vector<Eigen::Index>& channels, const HarmonicTransform&,
+                                             const HarmonicTransform& on_nodes) const {
   std::vector<Grid> grids(channels.size(), Grid(resolution_, resolution_));
-  for (Eigen::Index node = 0; node < origins_.rows(); ++node) {
-    const GridSamples::Stencil stencil = signals_.stencil(origins_.row(node));
+  signals_.for_each_stencil(origins_, [&](Eigen::Index node, const GridSamples::Stencil& stencil) {
     for (std::size_t c = 0; c < channels.size(); ++c)
       grids[c].data()[node] = signals_(stencil, static_cast<std::size_t>(channels[c] / 4))[channels[c] % 4];
-  }
-  const HarmonicTransform on_nodes(resolution_, transform.degree());
+  });
   std::vector<Harmonics> result;
   for (const Grid& grid : grids) result.push_back(on_nodes.analyze(grid));
   return result;
@@ -65,10 +66,10 @@ void GridFlowSide::move(const std::shared_ptr<const TangentField>& field, double
   warp_.append(field, step);
   Points before = grid_nodes(resolution_);
   advect(before, *field, -step);
-  origins_ = OriginSamples(origins_, resolution_).at(std::move(before));
+  origins_ = OriginSamples(origins_, resolution_).at(before);
 }
 
-void GridFlowSide::resample(int resolution) {
+void GridFlowSide::follow(int resolution) {
   origins_ = origins(resolution);
   resolution_ = resolution;
 }
@@ -76,13 +77,16 @@ void GridFlowSide::resample(int resolution) {
 MeshFlowSide::MeshFlowSide(const Triangles& faces, const Eigen::MatrixXd& signals, const Points& sphere, const Eigen::Matrix3d& rotation)
     : FlowSide(rotation), faces_(faces), signals_(signals), sphere_(sphere * rotation.transpose()) {}
 
-std::vector<Harmonics> MeshFlowSide::signals(const std::vector<Eigen::Index>& channels, const HarmonicTransform& transform) const {
+std::vector<Harmonics> MeshFlowSide::signals(const std::vector<Eigen::Index>& channels, const HarmonicTransform& on_level,
+                                             const HarmonicTransform&) const {
   Eigen::MatrixXd values(signals_.rows(), static_cast<Eigen::Index>(channels.size()));
   for (std::size_t c = 0; c < channels.size(); ++c) values.col(static_cast<Eigen::Index>(c)) = signals_.col(channels[c]);
   std::vector<Harmonics> result;
-  for (const Grid& grid : rasterize_signals(sphere_, faces_, values, transform.resolution())) result.push_back(transform.analyze(grid));
+  for (const Grid& grid : rasterize_signals(sphere_, faces_, values, on_level.resolution())) result.push_back(on_level.analyze(grid));
   return result;
 }
+
+void MeshFlowSide::follow(int) {}  // each call rasterises at the resolution it needs
 
 Points MeshFlowSide::origins(int resolution) const { return warp_.backward(grid_nodes(resolution)); }
 

@@ -17,9 +17,13 @@ class FlowSide {
  public:
   virtual ~FlowSide() = default;
 
-  /// Carried along by all moves so far: the signals of the given channels, one after the other.
-  [[nodiscard]] virtual std::vector<Harmonics> signals(const std::vector<Eigen::Index>& channels,
-                                                       const HarmonicTransform& transform) const = 0;
+  /// Carried along by all moves so far: the signals of the given channels, one after the other. Both transforms are of the wanted degree;
+  /// `on_nodes` has the resolution that is followed.
+  [[nodiscard]] virtual std::vector<Harmonics> signals(const std::vector<Eigen::Index>& channels, const HarmonicTransform& on_level,
+                                                       const HarmonicTransform& on_nodes) const = 0;
+
+  /// From now on the grid of this resolution counts.
+  virtual void follow(int resolution) = 0;
 
   /// For each cell centre of a grid, row by row, the point of the prepared sphere that was carried there, (N * N, 3).
   [[nodiscard]] virtual Points origins(int resolution) const = 0;
@@ -41,13 +45,11 @@ class GridFlowSide : public FlowSide {
   /// `signals`, not owned, lie on the prepared sphere.
   GridFlowSide(const GridSamples& signals, const Eigen::Matrix3d& rotation, int resolution);
 
-  [[nodiscard]] std::vector<Harmonics> signals(const std::vector<Eigen::Index>& channels,
-                                               const HarmonicTransform& transform) const override;
+  [[nodiscard]] std::vector<Harmonics> signals(const std::vector<Eigen::Index>& channels, const HarmonicTransform& on_level,
+                                               const HarmonicTransform& on_nodes) const override;
+  void follow(int resolution) override;
   [[nodiscard]] Points origins(int resolution) const override;
   void move(const std::shared_ptr<const TangentField>& field, double step) override;
-
-  /// Follows the nodes of a grid of another resolution from now on.
-  void resample(int resolution);
 
  private:
   const GridSamples& signals_;
@@ -61,8 +63,9 @@ class MeshFlowSide : public FlowSide {
   /// `faces` (F, 3) and `signals` (V, C) are not owned; `sphere` (V, 3) is the prepared sphere.
   MeshFlowSide(const Triangles& faces, const Eigen::MatrixXd& signals, const Points& sphere, const Eigen::Matrix3d& rotation);
 
-  [[nodiscard]] std::vector<Harmonics> signals(const std::vector<Eigen::Index>& channels,
-                                               const HarmonicTransform& transform) const override;
+  [[nodiscard]] std::vector<Harmonics> signals(const std::vector<Eigen::Index>& channels, const HarmonicTransform& on_level,
+                                               const HarmonicTransform& on_nodes) const override;
+  void follow(int resolution) override;
   [[nodiscard]] Points origins(int resolution) const override;
   void move(const std::shared_ptr<const TangentField>& field, double step) override;
 

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/sphere/advection.h"
 
 namespace spherematch {
 namespace {
-
-constexpr int kFieldResolution = 128;  ///< at least, for the bilinear samples of the flow field
 
 /// The smoothing after which degree `degree` is left with 1/`reduction` of its coefficient.
 double cutoff_smoothing(int degree, double reduction) { return std::log(reduction) / (degree * (degree + 1.0)); }
@@ -21,10 +20,7 @@ void smooth(int degree, double time, Harmonics& coefficients) {
 class FlowSystem {
  public:
   FlowSystem(const HarmonicTransform& transform, double smoothness)
-      : transform_(transform),
-        smoothness_(smoothness),
-        areas_(cell_areas(transform.resolution()).array()),
-        zero_(Harmonics::Zero(harmonic_count(transform.degree()))) {
+      : transform_(transform), smoothness_(smoothness), areas_(cell_areas(transform.resolution()).array()) {
     const int n = transform.resolution();
     tensor_[0] = tensor_[1] = tensor_[2] = Grid::Zero(n, n);
     right_ = {Grid::Zero(n, n), Grid::Zero(n, n)};
@@ -32,7 +28,7 @@ class FlowSystem {
 
   /// Adds one channel of both shapes, given by its coefficients.
   void add_channel(const Harmonics& source, const Harmonics& target) {
-    const TangentGrid s = transform_.synthesize_tangent(source, zero_), t = transform_.synthesize_tangent(target, zero_);
+    const TangentGrid s = transform_.synthesize_tangent(source, {}), t = transform_.synthesize_tangent(target, {});
     const Grid difference = transform_.synthesize(source - target);
     tensor_[0] += s.colatitude * s.colatitude + t.colatitude * t.colatitude;
     tensor_[1] += s.colatitude * s.longitude + t.colatitude * t.longitude;
@@ -52,10 +48,10 @@ class FlowSystem {
     strength_ = (tensor_[0].sum() + tensor_[2].sum()) / (2 * areas_.sum() * transform_.resolution());
 
     const int degree = transform_.degree();
-    Harmonics unused, r;
-    transform_.adjoint_tangent(right_, unused, r);
+    Harmonics r;
+    transform_.adjoint_tangent(right_, nullptr, &r);
     r[0] = 0;
-    Harmonics u = zero_, z = precondition(r), p = z;
+    Harmonics u = Harmonics::Zero(r.size()), z = precondition(r), p = z;
     double rz = harmonic_dot(degree, r, z);
     const double stop = kTolerance * kTolerance * rz;
     for (int i = 0; i < kIterations && rz > stop && rz > 0; ++i) {
@@ -81,10 +77,10 @@ class FlowSystem {
   }
 
   [[nodiscard]] Harmonics apply(const Harmonics& u) const {
-    const TangentGrid w = transform_.synthesize_tangent(zero_, u);
+    const TangentGrid w = transform_.synthesize_tangent({}, u);
     const TangentGrid data{tensor_[0] * w.colatitude + tensor_[1] * w.longitude, tensor_[1] * w.colatitude + tensor_[2] * w.longitude};
-    Harmonics unused, result;
-    transform_.adjoint_tangent(data, unused, result);
+    Harmonics result;
+    transform_.adjoint_tangent(data, nullptr, &result);
     Harmonics smooth_part = u;
     scale_degrees(transform_.degree(), smooth_part, [this](int l) { return stiffness(l); });
     result += smooth_part;
@@ -95,33 +91,41 @@ class FlowSystem {
   const HarmonicTransform& transform_;
   double smoothness_;
   Eigen::ArrayXd areas_;
-  Harmonics zero_;
   Grid tensor_[3];     ///< sum of g g^T over channels and shapes: (colatitude, colatitude), mixed, (longitude, longitude)
   TangentGrid right_;  ///< sum of (f_S - f_T) (grad f_S + grad f_T)
   double strength_ = 0;
 };
 
-std::vector<Harmonics> level_signals(const FlowSide& side, const FlowLevel& level, const HarmonicTransform& transform) {
-  std::vector<Harmonics> result = side.signals(level.channels, transform);
-  for (Harmonics& a : result) smooth(transform.degree(), cutoff_smoothing(level.resolution / 2, 100), a);
+std::vector<Harmonics> level_signals(const FlowSide& side, const FlowPlan::Level& level) {
+  std::vector<Harmonics> result = side.signals(level.level.channels, level.on_level, level.on_nodes);
+  for (Harmonics& a : result) smooth(level.on_level.degree(), cutoff_smoothing(level.level.resolution / 2, 100), a);
   return result;
 }
 
 }  // namespace
 
-void flow_together(FlowSide& source, FlowSide& target, const FlowParameters& parameters, const Progress& progress) {
-  for (const FlowLevel& level : parameters.levels) {
-    const int degree = level.resolution / 2 - 1;
-    const HarmonicTransform transform(level.resolution, degree), fine(std::max(level.resolution, kFieldResolution), degree);
-    const Harmonics zero = Harmonics::Zero(harmonic_count(degree));
-    for (int iteration = 0; iteration < level.iterations; ++iteration) {
+FlowPlan::FlowPlan(FlowParameters parameters, int nodes) : smoothness_(parameters.smoothness), nodes_(nodes) {
+  for (const FlowLevel& level : parameters.levels) nodes_ = std::max(nodes_, level.resolution);
+  const HarmonicTransform on_nodes(nodes_, nodes_ / 2 - 1);
+  for (FlowLevel& level : parameters.levels) {
+    const int resolution = level.resolution, degree = resolution / 2 - 1;
+    levels_.push_back({std::move(level), HarmonicTransform(resolution, degree), on_nodes.truncated(degree)});
+  }
+}
+
+void flow_together(FlowSide& source, FlowSide& target, const FlowPlan& plan, const Progress& progress) {
+  source.follow(plan.nodes());
+  target.follow(plan.nodes());
+  for (const FlowPlan::Level& level : plan.levels()) {
+    const int degree = level.on_level.degree();
+    for (int iteration = 0; iteration < level.level.iterations; ++iteration) {
       progress.check();
-      const std::vector<Harmonics> f = level_signals(source, level, transform), g = level_signals(target, level, transform);
-      FlowSystem system(transform, parameters.smoothness);
+      const std::vector<Harmonics> f = level_signals(source, level), g = level_signals(target, level);
+      FlowSystem system(level.on_level, plan.smoothness());
       for (std::size_t c = 0; c < f.size(); ++c) system.add_channel(f[c], g[c]);
       Harmonics stream = system.solve();
-      smooth(degree, cutoff_smoothing(level.resolution / 2, 100.0 * level.resolution), stream);
-      const auto field = std::make_shared<const TangentField>(fine.synthesize_tangent(zero, stream));
+      smooth(degree, cutoff_smoothing(level.level.resolution / 2, 100.0 * level.level.resolution), stream);
+      const auto field = std::make_shared<const TangentField>(level.on_nodes.synthesize_tangent({}, stream));
       source.move(field, 0.5);
       target.move(field, -0.5);
     }

@@ -9,7 +9,7 @@
 
 namespace spherematch {
 
-/// One level of the hierarchy: signals on an N x N grid, harmonics up to N / 2.
+/// One level of the hierarchy: harmonics up to N / 2, on an N x N grid.
 struct FlowLevel {
   int resolution;
   int iterations;
@@ -21,10 +21,31 @@ struct FlowParameters {
   double smoothness = 0.05;  ///< alpha
 };
 
+/// Some levels of the hierarchy with their transforms, for any number of pairs. Immutable, thread-safe.
+class FlowPlan {
+ public:
+  /// The sides are followed at the nodes of a grid of the resolution `nodes`, or of the finest level's where that is finer.
+  FlowPlan(FlowParameters parameters, int nodes);
+
+  struct Level {
+    FlowLevel level;
+    HarmonicTransform on_level;  ///< solves
+    HarmonicTransform on_nodes;  ///< of the same degree: reads signals, writes fields
+  };
+  [[nodiscard]] const std::vector<Level>& levels() const { return levels_; }
+  [[nodiscard]] double smoothness() const { return smoothness_; }
+  [[nodiscard]] int nodes() const { return nodes_; }
+
+ private:
+  double smoothness_;
+  int nodes_;
+  std::vector<Level> levels_;
+};
+
 /// Moves both shapes half way towards each other, level by level. Each iteration minimises, over tangent fields W = p x grad u,
 ///   sum over channels and both shapes of (<grad f_i, W> - (f_S - f_T))^2 + alpha (Laplacian u)^2
 /// in spherical harmonics (no poles) by conjugate gradients, smooths u, and moves the source by W/2 and the target by -W/2.
 /// @throws EngineError(cancelled)
-void flow_together(FlowSide& source, FlowSide& target, const FlowParameters& parameters, const Progress& progress);
+void flow_together(FlowSide& source, FlowSide& target, const FlowPlan& plan, const Progress& progress);
 
 }  // namespace spherematch

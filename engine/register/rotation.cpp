@@ -1,15 +1,13 @@
 #include "engine/register/rotation.h"
 
-#include <fftw3.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <mutex>
 #include <numbers>
 
 #include "engine/register/wigner.h"
+#include "engine/sphere/fourier.h"
 
 namespace spherematch {
 namespace {
@@ -37,21 +35,12 @@ struct CorrelationGrid {
   }
 };
 
-std::mutex& planner_mutex() {  // FFTW plans may be executed, but not made, in parallel
-  static std::mutex mutex;
-  return mutex;
-}
-
 CorrelationGrid correlate(const std::vector<Signal>& source, const std::vector<Signal>& target, int degree) {
   const int n = 2 * (degree + 1);
   const auto size = static_cast<std::size_t>(n);
   CorrelationGrid grid{n, std::vector<double>(size * size * size)};
   std::vector<Complex> spectrum(size * (size / 2 + 1));
-  fftw_plan plan = nullptr;
-  {
-    const std::scoped_lock lock(planner_mutex());
-    plan = fftw_plan_dft_c2r_2d(n, n, reinterpret_cast<fftw_complex*>(spectrum.data()), grid.values.data(), FFTW_ESTIMATE | FFTW_UNALIGNED);
-  }
+  const PlaneFourier fourier(n);
   for (int j = 0; j < n; ++j) {
     const std::vector<Eigen::MatrixXd> d = wigner_d(degree, std::numbers::pi * (j + 0.5) / n);
     std::fill(spectrum.begin(), spectrum.end(), Complex(0));
@@ -65,11 +54,8 @@ CorrelationGrid correlate(const std::vector<Signal>& source, const std::vector<S
           for (int k = 0; k <= l; ++k) row[k] += d[L](m + l, l - k) * g * source[c][L][l - k];
         }
       }
-    fftw_execute_dft_c2r(plan, reinterpret_cast<fftw_complex*>(spectrum.data()),
-                         grid.values.data() + static_cast<std::size_t>(j) * size * size);
+    fourier.backward(spectrum.data(), grid.values.data() + static_cast<std::size_t>(j) * size * size);
   }
-  const std::scoped_lock lock(planner_mutex());
-  fftw_destroy_plan(plan);
   return grid;
 }
 

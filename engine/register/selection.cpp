@@ -1,6 +1,7 @@
 #include "engine/register/selection.h"
 
 #include <cmath>
+#include <vector>
 
 #include "engine/sphere/harmonics.h"
 
@@ -16,15 +17,18 @@ double mean_over_sphere(const Grid& values) {
 
 double registration_cost(const GridSamples& source_signals, const Points& source_origins, const GridSamples& target_signals,
                          const Points& target_origins, int resolution) {
+  const std::size_t packs = source_signals.packs();
+  std::vector<GridSamples::Pack> values(packs * static_cast<std::size_t>(source_origins.rows()));
+  source_signals.for_each_stencil(source_origins, [&](Eigen::Index node, const GridSamples::Stencil& stencil) {
+    for (std::size_t pack = 0; pack < packs; ++pack) values[static_cast<std::size_t>(node) * packs + pack] = source_signals(stencil, pack);
+  });
   Grid difference(resolution, resolution);
-  for (Eigen::Index node = 0; node < difference.size(); ++node) {
-    const GridSamples::Stencil source = source_signals.stencil(source_origins.row(node)),
-                               target = target_signals.stencil(target_origins.row(node));
+  target_signals.for_each_stencil(target_origins, [&](Eigen::Index node, const GridSamples::Stencil& stencil) {
     double sum = 0;
-    for (std::size_t pack = 0; pack < source_signals.packs(); ++pack)
-      sum += (source_signals(source, pack) - target_signals(target, pack)).abs().sum();
+    for (std::size_t pack = 0; pack < packs; ++pack)
+      sum += (values[static_cast<std::size_t>(node) * packs + pack] - target_signals(stencil, pack)).abs().sum();
     difference.data()[node] = sum / static_cast<double>(source_signals.channels());
-  }
+  });
   return mean_over_sphere(difference);
 }
 
@@ -35,7 +39,8 @@ double paper_cost(const GridSamples& source_signal, const Points& source_origins
   const HarmonicTransform transform(resolution, degree);
   const auto smoothed = [&](const GridSamples& signal, const Points& origins) {
     Grid values(resolution, resolution);
-    for (Eigen::Index node = 0; node < values.size(); ++node) values.data()[node] = signal(signal.stencil(origins.row(node)), 0)[0];
+    signal.for_each_stencil(origins,
+                            [&](Eigen::Index node, const GridSamples::Stencil& stencil) { values.data()[node] = signal(stencil, 0)[0]; });
     Harmonics a = transform.analyze(values);
     scale_degrees(degree, a, [time](int l) { return std::exp(-time * l * (l + 1)); });
     return transform.synthesize(a);

@@ -33,7 +33,6 @@ void evolve_authalically(Points& sphere, const TriMesh& surface, const Preproces
   const int degree = smoothed_degree(parameters.authalic_smoothing, n);
   const HarmonicTransform transform(n, degree);
   const Eigen::ArrayXd areas = cell_areas(n).array();
-  const Harmonics none = Harmonics::Zero(harmonic_count(degree));
   const FlipRepair repair(surface);
   const double floor = 1e-12 / (n * n);  // of the total area: keeps a cell that no triangle reaches finite
 
@@ -47,7 +46,7 @@ void evolve_authalically(Points& sphere, const TriMesh& surface, const Preproces
     const Grid log_scale = (rasterize_mass(sphere, faces, face_mass, n).max(floor).colwise() / areas).log();
     Harmonics smooth = transform.analyze(log_scale);
     scale_degrees(degree, smooth, [&](int l) { return -std::exp(-parameters.authalic_smoothing * l * (l + 1)); });
-    const TangentField velocity(transform.synthesize_tangent(smooth, none));
+    const TangentField velocity(transform.synthesize_tangent(smooth, {}));
 
     advect(sphere, velocity, parameters.authalic_step_size);
     for (int i = 0; i < kCenteringSteps; ++i) centering_step(sphere, faces, face_mass);

@@ -11,7 +11,9 @@
 namespace spherematch {
 
 FlipRepair::FlipRepair(const Points& surface_vertices, const Triangles& faces)
-    : faces_(faces.rows(), 3), start_(static_cast<std::size_t>(surface_vertices.rows()) + 1, 0), face_(static_cast<std::size_t>(faces.size())) {
+    : faces_(faces.rows(), 3),
+      start_(static_cast<std::size_t>(surface_vertices.rows()) + 1, 0),
+      face_(static_cast<std::size_t>(faces.size())) {
   const Eigen::VectorXd areas = face_areas(surface_vertices, faces);
   std::vector<std::int32_t> order(static_cast<std::size_t>(faces.rows()));
   std::iota(order.begin(), order.end(), 0);

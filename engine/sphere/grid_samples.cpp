@@ -1,8 +1,6 @@
 #include "engine/sphere/grid_samples.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace spherematch {
 namespace {
@@ -34,12 +32,9 @@ GridSamples::GridSamples(const std::vector<Grid>& channels)
   }
 }
 
-GridSamples::Stencil GridSamples::stencil(const Eigen::Vector3d& p) const {
+GridSamples::Stencil GridSamples::stencil(const GridPlace& place) const {
   const int n = resolution_;
-  const double colatitude = std::atan2(std::sqrt(p[0] * p[0] + p[1] * p[1]), p[2]);
-  double longitude = std::atan2(p[1], p[0]);
-  if (longitude < 0) longitude += 2 * std::numbers::pi;
-  const double r = colatitude * n / std::numbers::pi + 0.5, c = longitude * n / (2 * std::numbers::pi) + 0.5;
+  const double r = place.colatitude * n + 0.5, c = place.longitude * n + 0.5;
   const int row = std::clamp(static_cast<int>(r), 0, n), column = std::clamp(static_cast<int>(c), 0, n);
   // The samples at row - 1 and row, counted from the first centre, enclose p; one more lies on each side.
   return {(row - 2 + kBorder) * stride_ + column - 2 + kBorder, cubic_weights(r - row), cubic_weights(c - column)};

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
+#include "engine/data/tri_mesh.h"
 #include "engine/sphere/grid.h"
+#include "engine/sphere/grid_place.h"
 
 namespace spherematch {
 
@@ -27,8 +31,20 @@ class GridSamples {
   [[nodiscard]] std::size_t packs() const { return packs_.size(); }
   [[nodiscard]] std::size_t channels() const { return channels_; }
 
-  /// The stencil at the unit vector `p`.
-  [[nodiscard]] Stencil stencil(const Eigen::Vector3d& p) const;
+  [[nodiscard]] Stencil stencil(const GridPlace& place) const;
+
+  /// Calls visit(i, stencil) for each of the unit vectors `points` (P, 3).
+  template <typename Visit>
+  void for_each_stencil(const Points& points, const Visit& visit) const {
+    constexpr Eigen::Index kBatch = 64;  // places are found for several at once
+    std::array<GridPlace, kBatch> places;
+    for (Eigen::Index first = 0; first < points.rows(); first += kBatch) {
+      const Eigen::Index count = std::min(kBatch, points.rows() - first);
+      const double* p = points.data() + 3 * first;
+      for (Eigen::Index i = 0; i < count; ++i) places[static_cast<std::size_t>(i)] = grid_place(p[3 * i], p[3 * i + 1], p[3 * i + 2]);
+      for (Eigen::Index i = 0; i < count; ++i) visit(first + i, stencil(places[static_cast<std::size_t>(i)]));
+    }
+  }
 
   /// The values of channels 4 * pack to 4 * pack + 3.
   [[nodiscard]] Pack operator()(const Stencil& at, std::size_t pack) const {

@@ -1,4 +1,6 @@
-// Spherical harmonic transforms between a Grid and coefficients, scalar and tangential (libsharp underneath).
+// Spherical harmonic transforms between a Grid and coefficients, scalar and tangential.
+//
+// Fourier transforms along the rows, then sums over tabulated Legendre functions: of the many transforms of one pair all share one table.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,32 +24,41 @@ struct TangentGrid {
   Grid longitude;
 };
 
-/// Transforms at one grid resolution and one degree. Immutable; const members may be called from several threads.
+/// Transforms at one grid resolution and one degree. Copies share their tables. Immutable; const members may be called from several
+/// threads.
 class HarmonicTransform {
  public:
   /// Exact for band-limited functions when degree <= (resolution - 1) / 2.
   HarmonicTransform(int resolution, int degree);
-  ~HarmonicTransform();
-  HarmonicTransform(HarmonicTransform&&) noexcept;
-  HarmonicTransform& operator=(HarmonicTransform&&) noexcept;
 
-  [[nodiscard]] int resolution() const;
-  [[nodiscard]] int degree() const;
+  /// The same for a lower degree, at no cost.
+  [[nodiscard]] HarmonicTransform truncated(int degree) const;
+
+  [[nodiscard]] int resolution() const { return resolution_; }
+  [[nodiscard]] int degree() const { return degree_; }
 
   /// Quadrature on the cell centres (Fejer's first rule).
   [[nodiscard]] Harmonics analyze(const Grid& values) const;
   [[nodiscard]] Grid synthesize(const Harmonics& coefficients) const;
 
-  /// Gradient of the potential `gradient` plus the gradient of `curl` turned by 90 degrees counter-clockwise (p x grad).
+  /// Gradient of the potential `gradient` plus the gradient of `curl` turned by 90 degrees counter-clockwise (p x grad). An empty vector
+  /// stands for zero and saves half of the time.
   [[nodiscard]] TangentGrid synthesize_tangent(const Harmonics& gradient, const Harmonics& curl) const;
 
-  /// Transpose of synthesize_tangent with respect to the plain sum over cells on one side and
-  /// harmonic_dot on the other.
-  void adjoint_tangent(const TangentGrid& field, Harmonics& gradient, Harmonics& curl) const;
+  /// Transpose of synthesize_tangent with respect to the plain sum over cells on one side and harmonic_dot on the other. Only what is
+  /// not null is computed.
+  void adjoint_tangent(const TangentGrid& field, Harmonics* gradient, Harmonics* curl) const;
 
  private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  struct Tables;
+  struct Halves;
+
+  [[nodiscard]] Halves fold(const Grid& values, const Eigen::VectorXd* weights) const;
+  [[nodiscard]] Grid unfold(const Halves& halves) const;
+
+  int resolution_;
+  int degree_;
+  std::shared_ptr<const Tables> tables_;
 };
 
 /// Inner product of the two real functions over the sphere.

@@ -63,7 +63,6 @@ LIBRARIES = (
     Library("yaml-cpp", r"yaml-cpp/.*", ("server",)),
     Library("Spectra", r"Spectra/.*", ("engine",)),
     Library("FFTW", r"fftw3\.h", ("engine",)),
-    Library("libsharp", r"libsharp/.*", ("engine",)),
 )
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')

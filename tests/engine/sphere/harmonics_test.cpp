@@ -100,7 +100,7 @@ TEST(HarmonicTransform, TangentialSynthesisAndItsTransposeAreAdjoint) {
     const TangentGrid image = transform.synthesize_tangent(gradient, curl);
     const double on_grid = (image.colatitude * field.colatitude + image.longitude * field.longitude).sum();
     Harmonics back_gradient, back_curl;
-    transform.adjoint_tangent(field, back_gradient, back_curl);
+    transform.adjoint_tangent(field, &back_gradient, &back_curl);
     const double in_harmonics = harmonic_dot(degree, back_gradient, gradient) + harmonic_dot(degree, back_curl, curl);
     const double size = std::sqrt((image.colatitude.square() + image.longitude.square()).sum() *
                                   (field.colatitude.square() + field.longitude.square()).sum());
