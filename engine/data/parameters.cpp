@@ -65,6 +65,8 @@ void MatchParameters::validate() const {
   require(flow_resolution >= 8 && flow_resolution <= 32 && flow_resolution % 2 == 0, "flow_resolution", "must be even, 8 to 32");
   require(flow_iterations >= 0 && flow_iterations <= 100, "flow_iterations", "must be 0 to 100");
   require(fine_candidates >= 1, "fine_candidates", "must be at least 1");
+  require(finest_flow >= 8 && finest_flow <= 512 && finest_flow % 2 == 0, "finest_flow", "must be even, 8 to 512");
+  require(positive(flow_tolerance) && flow_tolerance < 1, "flow_tolerance", "must be above 0 and below 1");
   require(positive(flow_smoothness), "flow_smoothness", "must be positive");
   require(hints.size() <= max_hints, "hints", "must hold at most 64 pairs");
   for (const Hint& hint : hints) require(hint.source >= 0 && hint.target >= 0, "hints", "must be vertex numbers from 0");
@@ -77,7 +79,10 @@ MatchParameters MatchParameters::paper() {
   parameters.candidate_threshold = 0.1;
   parameters.fine_candidates = parameters.max_candidates;
   parameters.paper_selection = true;
+  parameters.rotation_bandwidth = 32;
   parameters.mesh_flow = true;
+  parameters.finest_flow = 512;
+  parameters.flow_tolerance = 1e-5;
   return parameters;
 }
 

@@ -61,7 +61,7 @@ struct MatchParameters {
 
   // Rotational alignment (engine/register/rotation.h)
   double rotation_time = 1.0;  ///< heat kernel signature time of the rotation signal
-  int rotation_bandwidth = 32;
+  int rotation_bandwidth = 16;
   int max_candidates = 8;             ///< K
   double candidate_separation = 1.5;  ///< epsilon_1: squared Frobenius distance to a better candidate
   double candidate_threshold = 0.3;   ///< epsilon_2: fraction of the best correlation that may be missing
@@ -71,6 +71,8 @@ struct MatchParameters {
   int flow_resolution = 16;
   int flow_iterations = 6;        ///< per level
   double flow_smoothness = 0.05;  ///< alpha
+  int finest_flow = 64;           ///< resolution above which no level is solved; its smoothing stays that of the level
+  double flow_tolerance = 0.03;   ///< of each solve, on the residual
   bool mesh_flow = false;         ///< rasterises the moved meshes at each iteration as the paper does: slower, for comparison
 
   // Candidate selection (engine/register/selection.h)

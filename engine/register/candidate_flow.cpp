@@ -17,7 +17,7 @@ constexpr double kHintWeight = 0.1;
 constexpr double kCoarseGuide = 1.2, kFineGuide = 0.5;
 
 /// Resolutions of the grids on which registrations are followed and compared, through the coarse levels and the others.
-constexpr int kCoarseNodes = 64, kFineNodes = 128;
+constexpr int kCoarseNodes = 64, kFineNodes = 64;
 
 std::unique_ptr<FlowSide> flow_side(const Side& side, const Eigen::Matrix3d& rotation, const MatchParameters& parameters) {
   if (parameters.mesh_flow) return std::make_unique<MeshFlowSide>(side.faces, side.vertex_signals, side.sphere, rotation);
@@ -34,6 +34,8 @@ Registration rotated(const Pair& pair, std::size_t candidate, const Eigen::Matri
 FlowParameters flow_levels(const MatchParameters& parameters, std::size_t first, std::size_t last) {
   FlowParameters flow;
   flow.smoothness = parameters.flow_smoothness;
+  flow.tolerance = parameters.flow_tolerance;
+  flow.finest_resolution = parameters.finest_flow;
   for (std::size_t level = first; level < last; ++level)
     flow.levels.push_back({parameters.flow_resolution << level, parameters.flow_iterations, {static_cast<Eigen::Index>(level)}});
   return flow;

@@ -9,22 +9,24 @@
 
 namespace spherematch {
 
-/// One level of the hierarchy: harmonics up to N / 2, on an N x N grid.
+/// One level of the hierarchy.
 struct FlowLevel {
-  int resolution;
+  int resolution;  ///< N: signals and fields are smoothed as suits harmonics up to N / 2
   int iterations;
   std::vector<Eigen::Index> channels;  ///< of the sides' signals: what drives this level
 };
 
 struct FlowParameters {
   std::vector<FlowLevel> levels;
-  double smoothness = 0.05;  ///< alpha
+  double smoothness = 0.05;     ///< alpha
+  double tolerance = 1e-5;      ///< of the conjugate gradients: the residual, against the one at the start
+  int finest_resolution = 128;  ///< levels above it are solved on a grid of this resolution
 };
 
 /// Some levels of the hierarchy with their transforms, for any number of pairs. Immutable, thread-safe.
 class FlowPlan {
  public:
-  /// The sides are followed at the nodes of a grid of the resolution `nodes`, or of the finest level's where that is finer.
+  /// The sides are followed at the nodes of a grid of the resolution `nodes`, or of the finest that is solved on where that is finer.
   FlowPlan(FlowParameters parameters, int nodes);
 
   struct Level {
@@ -34,10 +36,12 @@ class FlowPlan {
   };
   [[nodiscard]] const std::vector<Level>& levels() const { return levels_; }
   [[nodiscard]] double smoothness() const { return smoothness_; }
+  [[nodiscard]] double tolerance() const { return tolerance_; }
   [[nodiscard]] int nodes() const { return nodes_; }
 
  private:
   double smoothness_;
+  double tolerance_;
   int nodes_;
   std::vector<Level> levels_;
 };
