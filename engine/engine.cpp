@@ -158,8 +158,8 @@ PreprocessedShape preprocess(Surface surface, const PreprocessParameters& parame
   return shape;
 }
 
-MatchResult match(const PreprocessedShape& source, const PreprocessedShape& target, const MatchParameters& parameters,
-                  const Progress& progress, int threads) {
+MatchResult match(const MatchShape& source, const MatchShape& target, const MatchParameters& parameters, const Progress& progress,
+                  int threads) {
   parameters.validate();
   return register_pair(source, target, parameters, progress, threads);
 }

@@ -12,6 +12,7 @@
 #include "engine/data/preprocessed_shape.h"
 #include "engine/data/progress.h"
 #include "engine/data/surface.h"
+#include "engine/register/match_shape.h"
 #include "engine/register/point_images.h"  // where chosen points of the source lie on the target
 
 namespace spherematch {
@@ -31,9 +32,10 @@ namespace spherematch {
 [[nodiscard]] PreprocessedShape preprocess(Surface surface, const PreprocessParameters& parameters = {}, const Progress& progress = {},
                                            int threads = 2);
 
-/// The part that belongs to a pair: rotational alignment, optical flow, candidate selection, composition.
+/// The part that belongs to a pair: rotational alignment, optical flow, candidate selection, composition. A MatchShape is made once of a
+/// preprocessed shape and serves any number of matches (engine/register/match_shape.h).
 /// @throws EngineError(cancelled, invalid_parameter)
-[[nodiscard]] MatchResult match(const PreprocessedShape& source, const PreprocessedShape& target, const MatchParameters& parameters = {},
+[[nodiscard]] MatchResult match(const MatchShape& source, const MatchShape& target, const MatchParameters& parameters = {},
                                 const Progress& progress = {}, int threads = 2);
 
 /// The error of a map against ground truth (engine/evaluate/map_error.h).

@@ -1,12 +1,16 @@
 #include "engine/register/candidate_flow.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
+#include <string>
 
 #include "engine/data/parallel.h"
 #include "engine/register/optical_flow.h"
 #include "engine/register/rotation.h"
 #include "engine/register/selection.h"
+#include "engine/spectrum/signatures.h"
 
 namespace spherematch {
 namespace {
@@ -16,18 +20,17 @@ constexpr double kHintWeight = 0.1;
 /// Widths of the guiding deformation in radians: wide before the coarse levels, for proportions that differ, then narrower.
 constexpr double kCoarseGuide = 1.2, kFineGuide = 0.5;
 
-/// Resolutions of the grids on which registrations are followed and compared, through the coarse levels and the others.
-constexpr int kCoarseNodes = 64, kFineNodes = 64;
+constexpr int kNodes = 64;  ///< resolution of the grid on which registrations are followed and compared
 
-std::unique_ptr<FlowSide> flow_side(const Side& side, const Eigen::Matrix3d& rotation, const MatchParameters& parameters) {
-  if (parameters.mesh_flow) return std::make_unique<MeshFlowSide>(side.faces, side.vertex_signals, side.sphere, rotation);
-  return std::make_unique<GridFlowSide>(side.flow, rotation, kCoarseNodes);
+std::unique_ptr<FlowSide> flow_side(const PairSide& side, const Eigen::Matrix3d& rotation) {
+  if (side.mesh) return std::make_unique<MeshFlowSide>(side.mesh, rotation);
+  return std::make_unique<GridFlowSide>(side.shape.signals(), side.flow_channels, rotation, kNodes);
 }
 
 /// Rotation and flow are split evenly, so that exchanging the shapes gives the inverse map.
 Registration rotated(const Pair& pair, std::size_t candidate, const Eigen::Matrix3d& rotation, bool guided) {
   const Eigen::Matrix3d half = half_rotation(rotation);
-  return {candidate, guided, flow_side(pair.source, half, pair.parameters), flow_side(pair.target, half.transpose(), pair.parameters)};
+  return {candidate, guided, flow_side(pair.source, half), flow_side(pair.target, half.transpose())};
 }
 
 /// The hierarchy's levels `first` to `last` - 1.
@@ -37,7 +40,7 @@ FlowParameters flow_levels(const MatchParameters& parameters, std::size_t first,
   flow.tolerance = parameters.flow_tolerance;
   flow.finest_resolution = parameters.finest_flow;
   for (std::size_t level = first; level < last; ++level)
-    flow.levels.push_back({parameters.flow_resolution << level, parameters.flow_iterations, {static_cast<Eigen::Index>(level)}});
+    flow.levels.push_back({parameters.flow_resolution << level, parameters.flow_iterations, {level}});
   return flow;
 }
 
@@ -50,11 +53,22 @@ double hint_distance(const Registration& registration, const HintDirections& hin
 void judge(Registration& registration, const Pair& pair, int nodes) {
   const Points s = registration.source->origins(nodes), t = registration.target->origins(nodes);
   const auto& cost = pair.parameters.paper_selection ? paper_cost : registration_cost;
-  registration.score = cost(pair.source.selection, s, pair.target.selection, t, nodes);
+  registration.score = cost({pair.source.shape.signals(), pair.source.selection_channels, s},
+                            {pair.target.shape.signals(), pair.target.selection_channels, t}, nodes);
   if (pair.hints.source.rows() > 0) registration.score += kHintWeight * hint_distance(registration, pair.hints);
 }
 
 }  // namespace
+
+PairSide::PairSide(const MatchShape& match_shape, const MatchParameters& parameters) : shape(match_shape) {
+  for (const double time : parameters.flow_times) flow_channels.push_back(shape.channel(hks_name(time)));
+  if (parameters.paper_selection) {
+    selection_channels = {shape.channel(hks_name(0.01))};
+  } else {
+    for (const std::string& name : selection_signal_names()) selection_channels.push_back(shape.channel(name));
+  }
+  if (parameters.mesh_flow) mesh = std::make_shared<const MeshSignals>(shape, parameters.flow_times);
+}
 
 std::vector<Registration> start_registrations(const Pair& pair, const std::vector<Eigen::Matrix3d>& rotations) {
   std::vector<Registration> registrations;
@@ -70,8 +84,8 @@ std::size_t flow_candidates(std::vector<Registration>& registrations, const Pair
   std::vector<std::size_t> order(registrations.size());
   std::iota(order.begin(), order.end(), 0);
   const auto better = [&](std::size_t i, std::size_t j) { return registrations[i].score < registrations[j].score; };
-  const auto flow = [&](std::size_t first, std::size_t last, int nodes) {
-    const FlowPlan plan(flow_levels(pair.parameters, first, last), nodes);
+  const auto flow = [&](std::size_t first, std::size_t last) {
+    const FlowPlan plan(flow_levels(pair.parameters, first, last), kNodes);
     run_parallel(order.size(), threads, [&](std::size_t i) {
       Registration& registration = registrations[order[i]];
       if (registration.guided)
@@ -88,10 +102,10 @@ std::size_t flow_candidates(std::vector<Registration>& registrations, const Pair
   std::size_t coarse = 0;
   if (order.size() > fine || hinted) {
     coarse = levels / 2;
-    flow(0, coarse, kCoarseNodes);
+    flow(0, coarse);
     order.resize(std::min(fine, order.size()));
   }
-  flow(coarse, levels, kFineNodes);
+  flow(coarse, levels);
   return order.front();
 }
 

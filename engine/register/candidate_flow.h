@@ -9,14 +9,25 @@
 #include "engine/data/progress.h"
 #include "engine/register/flow_side.h"
 #include "engine/register/hints.h"
-#include "engine/register/side.h"
+#include "engine/register/match_shape.h"
 
 namespace spherematch {
 
+/// One shape of a pair, and what the parameters ask of it. Refers to the shape, which must outlive it.
+struct PairSide {
+  const MatchShape& shape;
+  std::vector<Eigen::Index> flow_channels;       ///< of shape.signals(), one per flow time
+  std::vector<Eigen::Index> selection_channels;  ///< of shape.signals(): what registrations are compared by
+  std::shared_ptr<const MeshSignals> mesh;       ///< where the flow moves meshes, else null
+
+  /// @throws EngineError(invalid_parameter) when a time is none of those at which the shape's signals are stored
+  PairSide(const MatchShape& match_shape, const MatchParameters& parameters);
+};
+
 /// What is registered. Refers to its members, which must outlive it.
 struct Pair {
-  const Side& source;
-  const Side& target;
+  const PairSide& source;
+  const PairSide& target;
   const HintDirections& hints;
   const MatchParameters& parameters;
 };

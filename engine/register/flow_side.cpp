@@ -1,7 +1,9 @@
 #include "engine/register/flow_side.h"
 
 #include <numbers>
+#include <utility>
 
+#include "engine/spectrum/signatures.h"
 #include "engine/sphere/rasterizer.h"
 
 namespace spherematch {
@@ -42,15 +44,18 @@ class OriginSamples {
 
 }  // namespace
 
-GridFlowSide::GridFlowSide(const GridSamples& signals, const Eigen::Matrix3d& rotation, int resolution)
-    : FlowSide(rotation), signals_(signals), resolution_(resolution), origins_(grid_nodes(resolution) * rotation) {}
+GridFlowSide::GridFlowSide(const GridSamples& samples, const std::vector<Eigen::Index>& channels, const Eigen::Matrix3d& rotation,
+                           int resolution)
+    : FlowSide(rotation), samples_(samples), channels_(channels), resolution_(resolution), origins_(grid_nodes(resolution) * rotation) {}
 
-std::vector<Harmonics> GridFlowSide::signals(const std::vector<Eigen::Index>& channels, const HarmonicTransform&,
+std::vector<Harmonics> GridFlowSide::signals(const std::vector<std::size_t>& channels, const HarmonicTransform&,
                                              const HarmonicTransform& on_nodes) const {
   std::vector<Grid> grids(channels.size(), Grid(resolution_, resolution_));
-  signals_.for_each_stencil(origins_, [&](Eigen::Index node, const GridSamples::Stencil& stencil) {
-    for (std::size_t c = 0; c < channels.size(); ++c)
-      grids[c].data()[node] = signals_(stencil, static_cast<std::size_t>(channels[c] / 4))[channels[c] % 4];
+  samples_.for_each_stencil(origins_, [&](Eigen::Index node, const GridSamples::Stencil& stencil) {
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const Eigen::Index channel = channels_[channels[c]];
+      grids[c].data()[node] = samples_(stencil, static_cast<std::size_t>(channel / 4))[channel % 4];
+    }
   });
   std::vector<Harmonics> result;
   for (const Grid& grid : grids) result.push_back(on_nodes.analyze(grid));
@@ -74,15 +79,20 @@ void GridFlowSide::follow(int resolution) {
   resolution_ = resolution;
 }
 
-MeshFlowSide::MeshFlowSide(const Triangles& faces, const Eigen::MatrixXd& signals, const Points& sphere, const Eigen::Matrix3d& rotation)
-    : FlowSide(rotation), faces_(faces), signals_(signals), sphere_(sphere * rotation.transpose()) {}
+MeshSignals::MeshSignals(const MatchShape& shape, const std::vector<double>& times)
+    : MeshSignals(shape.working_sphere(), shape.working_faces(),
+                  heat_kernel_signatures(shape.shape().eigenvalues, shape.shape().eigenvectors, times)) {}
 
-std::vector<Harmonics> MeshFlowSide::signals(const std::vector<Eigen::Index>& channels, const HarmonicTransform& on_level,
+MeshFlowSide::MeshFlowSide(std::shared_ptr<const MeshSignals> mesh, const Eigen::Matrix3d& rotation)
+    : FlowSide(rotation), mesh_(std::move(mesh)), sphere_(mesh_->sphere * rotation.transpose()) {}
+
+std::vector<Harmonics> MeshFlowSide::signals(const std::vector<std::size_t>& channels, const HarmonicTransform& on_level,
                                              const HarmonicTransform&) const {
-  Eigen::MatrixXd values(signals_.rows(), static_cast<Eigen::Index>(channels.size()));
-  for (std::size_t c = 0; c < channels.size(); ++c) values.col(static_cast<Eigen::Index>(c)) = signals_.col(channels[c]);
+  Eigen::MatrixXd values(sphere_.rows(), static_cast<Eigen::Index>(channels.size()));
+  for (std::size_t c = 0; c < channels.size(); ++c)
+    values.col(static_cast<Eigen::Index>(c)) = mesh_->signals.col(static_cast<Eigen::Index>(channels[c]));
   std::vector<Harmonics> result;
-  for (const Grid& grid : rasterize_signals(sphere_, faces_, values, on_level.resolution())) result.push_back(on_level.analyze(grid));
+  for (const Grid& grid : rasterize_signals(sphere_, mesh_->faces, values, on_level.resolution())) result.push_back(on_level.analyze(grid));
   return result;
 }
 

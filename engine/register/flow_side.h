@@ -3,9 +3,11 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/data/tri_mesh.h"
+#include "engine/register/match_shape.h"
 #include "engine/register/warp.h"
 #include "engine/sphere/grid_samples.h"
 #include "engine/sphere/harmonics.h"
@@ -19,7 +21,7 @@ class FlowSide {
 
   /// Carried along by all moves so far: the signals of the given channels, one after the other. Both transforms are of the wanted degree;
   /// `on_nodes` has the resolution that is followed.
-  [[nodiscard]] virtual std::vector<Harmonics> signals(const std::vector<Eigen::Index>& channels, const HarmonicTransform& on_level,
+  [[nodiscard]] virtual std::vector<Harmonics> signals(const std::vector<std::size_t>& channels, const HarmonicTransform& on_level,
                                                        const HarmonicTransform& on_nodes) const = 0;
 
   /// From now on the grid of this resolution counts.
@@ -42,36 +44,47 @@ class FlowSide {
 /// Follows where the nodes of a grid come from, and reads there the signals of the prepared sphere. Its cost does not depend on the mesh.
 class GridFlowSide : public FlowSide {
  public:
-  /// `signals`, not owned, lie on the prepared sphere.
-  GridFlowSide(const GridSamples& signals, const Eigen::Matrix3d& rotation, int resolution);
+  /// The side's channels are the given ones of `samples`, which lie on the prepared sphere. Neither is owned.
+  GridFlowSide(const GridSamples& samples, const std::vector<Eigen::Index>& channels, const Eigen::Matrix3d& rotation, int resolution);
 
-  [[nodiscard]] std::vector<Harmonics> signals(const std::vector<Eigen::Index>& channels, const HarmonicTransform& on_level,
+  [[nodiscard]] std::vector<Harmonics> signals(const std::vector<std::size_t>& channels, const HarmonicTransform& on_level,
                                                const HarmonicTransform& on_nodes) const override;
   void follow(int resolution) override;
   [[nodiscard]] Points origins(int resolution) const override;
   void move(const std::shared_ptr<const TangentField>& field, double step) override;
 
  private:
-  const GridSamples& signals_;
+  const GridSamples& samples_;
+  const std::vector<Eigen::Index>& channels_;
   int resolution_;
   Points origins_;  ///< of the nodes
+};
+
+/// A mesh on its prepared sphere, with a signal per channel at each vertex.
+struct MeshSignals {
+  MeshSignals(Points prepared_sphere, Triangles mesh_faces, Eigen::MatrixXd vertex_signals)
+      : sphere(std::move(prepared_sphere)), faces(std::move(mesh_faces)), signals(std::move(vertex_signals)) {}
+  /// The heat kernel signatures of the shape at the given times.
+  MeshSignals(const MatchShape& shape, const std::vector<double>& times);
+
+  Points sphere;            ///< (V, 3)
+  Triangles faces;          ///< (F, 3)
+  Eigen::MatrixXd signals;  ///< (V, C)
 };
 
 /// Moves the vertices of the mesh and rasterises it anew for each call, as the paper does.
 class MeshFlowSide : public FlowSide {
  public:
-  /// `faces` (F, 3) and `signals` (V, C) are not owned; `sphere` (V, 3) is the prepared sphere.
-  MeshFlowSide(const Triangles& faces, const Eigen::MatrixXd& signals, const Points& sphere, const Eigen::Matrix3d& rotation);
+  MeshFlowSide(std::shared_ptr<const MeshSignals> mesh, const Eigen::Matrix3d& rotation);
 
-  [[nodiscard]] std::vector<Harmonics> signals(const std::vector<Eigen::Index>& channels, const HarmonicTransform& on_level,
+  [[nodiscard]] std::vector<Harmonics> signals(const std::vector<std::size_t>& channels, const HarmonicTransform& on_level,
                                                const HarmonicTransform& on_nodes) const override;
   void follow(int resolution) override;
   [[nodiscard]] Points origins(int resolution) const override;
   void move(const std::shared_ptr<const TangentField>& field, double step) override;
 
  private:
-  const Triangles& faces_;
-  const Eigen::MatrixXd& signals_;
+  std::shared_ptr<const MeshSignals> mesh_;
   Points sphere_;
 };
 

@@ -13,7 +13,7 @@ namespace spherematch {
 struct FlowLevel {
   int resolution;  ///< N: signals and fields are smoothed as suits harmonics up to N / 2
   int iterations;
-  std::vector<Eigen::Index> channels;  ///< of the sides' signals: what drives this level
+  std::vector<std::size_t> channels;  ///< of the sides' signals: what drives this level
 };
 
 struct FlowParameters {

@@ -23,6 +23,8 @@ class PointLocation {
   /// in which `p` is deepest inside, ties to the lowest index.
   [[nodiscard]] Location locate(const Eigen::Vector3d& p) const;
 
+  [[nodiscard]] std::size_t bytes() const { return nodes_.size() * sizeof(Node) + order_.size() * sizeof(order_[0]); }
+
  private:
   struct Node {
     Eigen::Array3d low, high;

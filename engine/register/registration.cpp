@@ -10,10 +10,7 @@
 #include "engine/register/composition.h"
 #include "engine/register/hints.h"
 #include "engine/register/mirror.h"
-#include "engine/register/point_location.h"
 #include "engine/register/rotation.h"
-#include "engine/register/side.h"
-#include "engine/sphere/flip_repair.h"
 #include "engine/sphere/harmonics.h"
 #include "engine/sphere/orientation.h"
 
@@ -34,12 +31,12 @@ class Stopwatch {
 };
 
 /// The best rotations of the stored signals and, where hints determine one, that of the hints, by falling correlation.
-std::vector<RotationCandidate> find_candidates(const Side& source, const Side& target, const HintDirections& hints,
+std::vector<RotationCandidate> find_candidates(const MatchShape& source, const MatchShape& target, const HintDirections& hints,
                                                const MatchParameters& parameters) {
-  const auto finest = static_cast<int>(std::min(source.rotation.rows(), target.rotation.rows()));
-  const int degree = std::min(parameters.rotation_bandwidth, finest / 2) - 1;
+  const Grid s = source.signal(hks_name(parameters.rotation_time)), t = target.signal(hks_name(parameters.rotation_time));
+  const int degree = std::min(parameters.rotation_bandwidth, static_cast<int>(std::min(s.rows(), t.rows())) / 2) - 1;
   const auto harmonics = [degree](const Grid& grid) { return HarmonicTransform(static_cast<int>(grid.rows()), degree).analyze(grid); };
-  const std::vector<Harmonics> f{harmonics(source.rotation)}, g{harmonics(target.rotation)};
+  const std::vector<Harmonics> f{harmonics(s)}, g{harmonics(t)};
   std::vector<RotationCandidate> candidates = align_rotations(f, g, degree, parameters);
   if (const auto hinted = rotation_from_hints(hints)) {
     const RotationCandidate extra{*hinted, rotation_correlation(f, g, degree, *hinted)};
@@ -51,7 +48,7 @@ std::vector<RotationCandidate> find_candidates(const Side& source, const Side& t
 
 /// All that is done with the source as it is, or with its mirror image.
 struct Attempt {
-  Side source;
+  PairSide source;
   HintDirections hints;
   std::vector<RotationCandidate> candidates{};
   std::vector<Registration> registrations{};
@@ -65,7 +62,7 @@ CandidateSummary summarize(const Attempt& attempt, std::size_t candidate, bool i
   CandidateSummary summary;
   const Eigen::Matrix3d rotation = attempt.candidates[candidate].rotation;
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(summary.rotation.data()) =
-      attempt.source.mirrored ? rotation * mirror_matrix() : rotation;
+      attempt.source.shape.mirrored() ? rotation * mirror_matrix() : rotation;
   summary.correlation = attempt.candidates[candidate].correlation;
   summary.chosen = in_best_attempt && attempt.best().candidate == candidate;
   summary.score = std::numeric_limits<double>::infinity();
@@ -91,36 +88,24 @@ double runner_up_score(const std::vector<CandidateSummary>& candidates) {
   return runner_up;
 }
 
-/// A surface, or its mirror image, spread over its prepared sphere.
-struct SpreadSurface {
-  SpreadSurface(const PreprocessedShape& shape, bool mirrored)
-      : surface(shape.surface),
-        sphere(spread_over(surface, mirrored ? mirrored_points(shape.sphere) : shape.sphere)),
-        faces(mirrored ? mirrored_faces(surface.mesh.faces) : surface.mesh.faces) {}
-
-  const Surface& surface;
-  Points sphere;    ///< (V, 3), of the vertices of surface.mesh
-  Triangles faces;  ///< oriented like `sphere`
-};
-
 struct HalfMap {
   std::vector<Location> locations;  ///< of the vertices of one surface in the faces of the other
   std::size_t flipped = 0;          ///< faces that the map turns over
 };
 
 /// One direction of a registration: carries the vertices of `from` to the registered sphere, and back from there to that of `to`.
-HalfMap map_vertices(const SpreadSurface& from, const Warp& there, const SpreadSurface& to, const Warp& back, int threads) {
+HalfMap map_vertices(const MatchShape& from, const Warp& there, const MatchShape& to, const Warp& back, int threads) {
   HalfMap result;
-  Points images = back.backward(there.forward(from.sphere, threads), threads);
-  if (!FlipRepair(from.surface.mesh.vertices, from.faces).repair(images)) result.flipped = flipped_faces(images, from.faces).size();
-  result.locations = locate_all(images, PointLocation(to.sphere, to.faces), threads);
+  Points images = back.backward(there.forward(from.sphere(), threads), threads);
+  if (!from.repair().repair(images)) result.flipped = flipped_faces(images, from.faces()).size();
+  result.locations = locate_all(images, to.location(), threads);
   return result;
 }
 
 }  // namespace
 
-MatchResult register_pair(const PreprocessedShape& source_shape, const PreprocessedShape& target_shape, const MatchParameters& parameters,
-                          const Progress& progress, int threads) {
+MatchResult register_pair(const MatchShape& source, const MatchShape& target, const MatchParameters& parameters, const Progress& progress,
+                          int threads) {
   const auto report = [&progress](const char* stage, double fraction) {
     if (progress.report) progress.report(stage, fraction);
   };
@@ -128,21 +113,21 @@ MatchResult register_pair(const PreprocessedShape& source_shape, const Preproces
   MatchResult result;
 
   report("rotation", 0);
-  const std::vector<PlacedHint> hints = place_hints(source_shape.surface, target_shape.surface, parameters.hints);
-  const Side target(target_shape, parameters, false);
+  const std::vector<PlacedHint> hints = place_hints(source.surface(), target.surface(), parameters.hints);
+  const PairSide target_side(target, parameters);
+  std::unique_ptr<const MatchShape> mirror_image;
   std::vector<Attempt> attempts;
-  for (const bool mirrored : {false, true}) {
-    if (parameters.orientation == (mirrored ? Orientation::preserve : Orientation::reverse)) continue;
-    Side source(source_shape, parameters, mirrored);
-    HintDirections placed = directions(hints, source.sphere, target.sphere);
-    attempts.push_back({std::move(source), std::move(placed)});
-  }
-  for (Attempt& attempt : attempts) attempt.candidates = find_candidates(attempt.source, target, attempt.hints, parameters);
+  const auto attempt_with = [&](const MatchShape& shape) {
+    attempts.push_back({PairSide(shape, parameters), directions(hints, shape.working_sphere(), target.working_sphere())});
+  };
+  if (parameters.orientation != Orientation::reverse) attempt_with(source);
+  if (parameters.orientation != Orientation::preserve) attempt_with(*(mirror_image = source.mirror_image()));
+  for (Attempt& attempt : attempts) attempt.candidates = find_candidates(attempt.source.shape, target, attempt.hints, parameters);
   result.seconds.emplace_back("rotation", watch.lap());
 
   report("flow", 0.1);
   for (Attempt& attempt : attempts) {
-    const Pair pair{attempt.source, target, attempt.hints, parameters};
+    const Pair pair{attempt.source, target_side, attempt.hints, parameters};
     std::vector<Eigen::Matrix3d> rotations;
     for (const RotationCandidate& candidate : attempt.candidates) rotations.push_back(candidate.rotation);
     attempt.registrations = start_registrations(pair, rotations);
@@ -153,17 +138,17 @@ MatchResult register_pair(const PreprocessedShape& source_shape, const Preproces
   report("correspondence", 0.9);
   const Attempt& best = *std::min_element(attempts.begin(), attempts.end(),
                                           [](const Attempt& a, const Attempt& b) { return a.best().score < b.best().score; });
-  result.reversed = best.source.mirrored;
+  const MatchShape& from = best.source.shape;
+  result.reversed = from.mirrored();
   result.candidates = summarize_all(attempts, best);
-  const SpreadSurface from(source_shape, best.source.mirrored), to(target_shape, false);
   const Warp &there = best.best().source->warp(), &back = best.best().target->warp();
-  const HalfMap forward = map_vertices(from, there, to, back, threads);
-  result.map = compose(from.surface, to.surface, forward.locations);
+  const HalfMap forward = map_vertices(from, there, target, back, threads);
+  result.map = compose(source.surface(), target.surface(), forward.locations);
   result.quality = {{"flipped_source", static_cast<double>(forward.flipped)}};
   if (parameters.both) {
-    HalfMap reverse = map_vertices(to, back, from, there, threads);
+    HalfMap reverse = map_vertices(target, back, from, there, threads);
     if (result.reversed) std::transform(reverse.locations.begin(), reverse.locations.end(), reverse.locations.begin(), mirrored_location);
-    result.reverse = compose(to.surface, from.surface, reverse.locations);
+    result.reverse = compose(target.surface(), source.surface(), reverse.locations);
     result.quality.emplace_back("flipped_target", static_cast<double>(reverse.flipped));
   }
   result.quality.emplace_back("score", best.best().score);

@@ -13,39 +13,43 @@ double mean_over_sphere(const Grid& values) {
   return (values.colwise() * areas).sum() / (areas.sum() * static_cast<double>(values.rows()));
 }
 
-}  // namespace
-
-double registration_cost(const GridSamples& source_signals, const Points& source_origins, const GridSamples& target_signals,
-                         const Points& target_origins, int resolution) {
-  const std::size_t packs = source_signals.packs();
-  std::vector<GridSamples::Pack> values(packs * static_cast<std::size_t>(source_origins.rows()));
-  source_signals.for_each_stencil(source_origins, [&](Eigen::Index node, const GridSamples::Stencil& stencil) {
-    for (std::size_t pack = 0; pack < packs; ++pack) values[static_cast<std::size_t>(node) * packs + pack] = source_signals(stencil, pack);
+/// One grid per channel.
+std::vector<Grid> on_grid(const RegisteredSignals& side, int resolution) {
+  std::vector<Grid> grids(side.channels.size(), Grid(resolution, resolution));
+  side.signals.for_each_stencil(side.origins, [&](Eigen::Index node, const GridSamples::Stencil& stencil) {
+    Eigen::Index pack = -1;
+    GridSamples::Pack values;
+    for (std::size_t c = 0; c < side.channels.size(); ++c) {
+      const Eigen::Index channel = side.channels[c];
+      if (channel / 4 != pack) values = side.signals(stencil, static_cast<std::size_t>(pack = channel / 4));
+      grids[c].data()[node] = values[channel % 4];
+    }
   });
-  Grid difference(resolution, resolution);
-  target_signals.for_each_stencil(target_origins, [&](Eigen::Index node, const GridSamples::Stencil& stencil) {
-    double sum = 0;
-    for (std::size_t pack = 0; pack < packs; ++pack)
-      sum += (values[static_cast<std::size_t>(node) * packs + pack] - target_signals(stencil, pack)).abs().sum();
-    difference.data()[node] = sum / static_cast<double>(source_signals.channels());
-  });
-  return mean_over_sphere(difference);
+  return grids;
 }
 
-double paper_cost(const GridSamples& source_signal, const Points& source_origins, const GridSamples& target_signal,
-                  const Points& target_origins, int resolution) {
+}  // namespace
+
+double registration_cost(const RegisteredSignals& source, const RegisteredSignals& target, int resolution) {
+  const std::vector<Grid> f = on_grid(source, resolution), g = on_grid(target, resolution);
+  double cost = 0;
+  for (std::size_t c = 0; c < f.size(); ++c) cost += mean_over_sphere((f[c] - g[c]).abs());
+  return cost / static_cast<double>(f.size());
+}
+
+double paper_cost(const RegisteredSignals& source, const RegisteredSignals& target, int resolution) {
   const int degree = resolution / 2 - 1;
   const double bandwidth = 0.5 * resolution, time = std::log(100.0) / (bandwidth * (bandwidth + 1));
   const HarmonicTransform transform(resolution, degree);
-  const auto smoothed = [&](const GridSamples& signal, const Points& origins) {
-    Grid values(resolution, resolution);
-    signal.for_each_stencil(origins,
-                            [&](Eigen::Index node, const GridSamples::Stencil& stencil) { values.data()[node] = signal(stencil, 0)[0]; });
-    Harmonics a = transform.analyze(values);
+  const auto smoothed = [&](const Grid& grid) {
+    Harmonics a = transform.analyze(grid);
     scale_degrees(degree, a, [time](int l) { return std::exp(-time * l * (l + 1)); });
     return transform.synthesize(a);
   };
-  return mean_over_sphere((smoothed(source_signal, source_origins) - smoothed(target_signal, target_origins)).abs());
+  const std::vector<Grid> f = on_grid(source, resolution), g = on_grid(target, resolution);
+  double cost = 0;
+  for (std::size_t c = 0; c < f.size(); ++c) cost += mean_over_sphere((smoothed(f[c]) - smoothed(g[c])).abs());
+  return cost / static_cast<double>(f.size());
 }
 
 }  // namespace spherematch

@@ -2,19 +2,25 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "engine/data/tri_mesh.h"
 #include "engine/sphere/grid_samples.h"
 
 namespace spherematch {
 
-/// Mean over the sphere, and over the channels, of the absolute difference of two shapes' signals. Row i of the origins (N * N, 3) is
-/// the point of the prepared sphere that is registered at cell centre i of a grid (engine/register/flow_side.h).
-[[nodiscard]] double registration_cost(const GridSamples& source_signals, const Points& source_origins, const GridSamples& target_signals,
-                                       const Points& target_origins, int resolution);
+/// A shape's signals as they lie on the registered sphere: row i of the origins (N * N, 3) is the point of the prepared sphere that is
+/// registered at cell centre i of a grid (engine/register/flow_side.h). Refers to its members, which must outlive it.
+struct RegisteredSignals {
+  const GridSamples& signals;
+  const std::vector<Eigen::Index>& channels;  ///< those that are compared
+  const Points& origins;
+};
 
-/// The paper's cost: the same for one signal, smoothed before it is compared.
-[[nodiscard]] double paper_cost(const GridSamples& source_signal, const Points& source_origins, const GridSamples& target_signal,
-                                const Points& target_origins, int resolution);
+/// Mean over the sphere, and over the channels, of the absolute difference of two shapes' signals.
+[[nodiscard]] double registration_cost(const RegisteredSignals& source, const RegisteredSignals& target, int resolution);
+
+/// The paper's cost: the same, smoothed before it is compared.
+[[nodiscard]] double paper_cost(const RegisteredSignals& source, const RegisteredSignals& target, int resolution);
 
 }  // namespace spherematch

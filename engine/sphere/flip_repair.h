@@ -20,6 +20,8 @@ class FlipRepair {
   /// Returns whether no face is flipped any more.
   [[nodiscard]] bool repair(Points& sphere) const;
 
+  [[nodiscard]] std::size_t bytes() const { return 4 * (static_cast<std::size_t>(faces_.size()) + start_.size() + face_.size()); }
+
  private:
   /// Each face whose height over its longest edge is below `thinness` times that edge gets, in turn, the smallest move of its
   /// corners that restores it, until none is left or `max_passes` are done. Vertices away from such faces stay.

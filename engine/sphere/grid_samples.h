@@ -28,6 +28,7 @@ class GridSamples {
   /// At least one channel; all of one resolution N, which is even.
   explicit GridSamples(const std::vector<Grid>& channels);
 
+  [[nodiscard]] std::size_t bytes() const { return packs_.size() * packs_.front().size() * sizeof(Pack); }
   [[nodiscard]] std::size_t packs() const { return packs_.size(); }
   [[nodiscard]] std::size_t channels() const { return channels_; }
 
