@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <mutex>
 #include <string>
 
@@ -106,7 +107,7 @@ std::vector<SignalGrid> signal_grids(const PreprocessedShape& shape, const Trian
 
 }  // namespace
 
-std::string_view engine_version() { return "2"; }
+std::string_view engine_version() { return "3"; }
 
 Surface read_surface(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options, const ReadLimits& limits) {
   options.validate();
@@ -162,6 +163,15 @@ MatchResult match(const MatchShape& source, const MatchShape& target, const Matc
                   int threads) {
   parameters.validate();
   return register_pair(source, target, parameters, progress, threads);
+}
+
+MatchResult match(const PreprocessedShape& source, const PreprocessedShape& target, const MatchParameters& parameters,
+                  const Progress& progress, int threads) {
+  parameters.validate();
+  const auto borrowed = [](const PreprocessedShape& shape) {
+    return MatchShape(std::shared_ptr<const PreprocessedShape>(std::shared_ptr<const void>(), &shape));
+  };
+  return match(borrowed(source), borrowed(target), parameters, progress, threads);
 }
 
 MapError evaluate(const Correspondence& map, const Surface& target, std::span<const Landmark> truth) {

@@ -38,6 +38,10 @@ namespace spherematch {
 [[nodiscard]] MatchResult match(const MatchShape& source, const MatchShape& target, const MatchParameters& parameters = {},
                                 const Progress& progress = {}, int threads = 2);
 
+/// The same for shapes that are matched once.
+[[nodiscard]] MatchResult match(const PreprocessedShape& source, const PreprocessedShape& target, const MatchParameters& parameters = {},
+                                const Progress& progress = {}, int threads = 2);
+
 /// The error of a map against ground truth (engine/evaluate/map_error.h).
 /// @throws EngineError(invalid_parameter)
 [[nodiscard]] MapError evaluate(const Correspondence& map, const Surface& target, std::span<const Landmark> truth);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -23,6 +24,8 @@ class PreparationLost : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+using ShapePointer = std::shared_ptr<const PreprocessedShape>;
+
 /// Implementations are thread-safe. The functions and their errors are those of engine/engine.h.
 class EnginePort {
  public:
@@ -34,8 +37,9 @@ class EnginePort {
   [[nodiscard]] virtual PolygonMesh read_mesh(std::span<const std::byte> bytes, std::string_view name) const = 0;
   /// @throws PreparationLost as well
   [[nodiscard]] virtual PreprocessedShape preprocess(Surface surface, const Progress& progress) const = 0;
-  [[nodiscard]] virtual MatchResult match(const PreprocessedShape& source, const PreprocessedShape& target,
-                                          const MatchParameters& parameters, const Progress& progress) const = 0;
+  /// Shapes that are the same object as in an earlier call may be matched faster.
+  [[nodiscard]] virtual MatchResult match(const ShapePointer& source, const ShapePointer& target, const MatchParameters& parameters,
+                                          const Progress& progress) const = 0;
 };
 
 }  // namespace spherematch

@@ -32,10 +32,13 @@ namespace {
 
 constexpr std::chrono::milliseconds stop_deadline{2000};
 
+/// One half for the shapes, the other for what matches add to them.
+std::size_t half_of_shape_cache(const ServerOptions& options) { return static_cast<std::size_t>(options.shape_cache_mib) << 19; }
+
 ShapeServiceSettings shape_settings(const ServerOptions& options, Metrics& metrics) {
   return {.workers = static_cast<std::size_t>(options.workers),
           .max_queued = static_cast<std::size_t>(options.max_queued_jobs),
-          .cache_bytes = static_cast<std::size_t>(options.shape_cache_mib) << 20,
+          .cache_bytes = half_of_shape_cache(options),
           .read_limits = {.max_vertices = options.max_vertices},
           .on_stage = [&metrics](std::string_view stage, double seconds) { metrics.stage_finished(stage, seconds); }};
 }
@@ -103,7 +106,7 @@ int serve(const ServerOptions& options) {
   const sigset_t signals = block_stop_signals();
   Access access(options.keys.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.keys));
   ShapeStore store(options.store);
-  const RealEngine engine(options.threads);
+  const RealEngine engine(options.threads, half_of_shape_cache(options));
   Operations operations(access, store, SPHEREMATCH_VERSION, engine.version());
   ShapeService shapes(store, engine, shape_settings(options, operations.metrics()));
   Gate matches("matches", static_cast<std::size_t>(options.concurrent_matches), static_cast<std::size_t>(options.waiting_matches));

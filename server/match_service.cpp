@@ -147,7 +147,7 @@ MatchAnswer MatchService::lead(const FlightPointer& flight, const std::string& k
 MatchPointer MatchService::compute(const MatchQuery& query) {
   const ShapePointer source = shapes_.load(query.src);
   const ShapePointer target = shapes_.load(query.tgt);
-  return std::make_shared<const MatchResult>(engine_.match(*source, *target, query.parameters, {.report = {}, .stop = stop_}));
+  return std::make_shared<const MatchResult>(engine_.match(source, target, query.parameters, {.report = {}, .stop = stop_}));
 }
 
 void MatchService::keep(const std::string& key, const MatchQuery& query, const MatchPointer& result) {

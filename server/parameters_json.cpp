@@ -44,7 +44,8 @@ api::Json to_json(const PreprocessParameters& parameters) {
 
 api::Json to_json(const MatchParameters& parameters) {
   const auto& [rotation_time, rotation_bandwidth, max_candidates, candidate_separation, candidate_threshold, flow_times, flow_resolution,
-               flow_iterations, flow_smoothness, finest_flow, flow_tolerance, mesh_flow, fine_candidates, paper_selection, orientation, hints, both] = parameters;
+               flow_iterations, flow_smoothness, finest_flow, flow_tolerance, mesh_flow, fine_candidates, paper_selection, orientation,
+               hints, both] = parameters;
   api::Json pairs = api::Json::array();
   for (const auto& [source, target] : hints) pairs.push_back({source, target});
   return {{"rotation_time", rotation_time},

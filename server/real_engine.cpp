@@ -1,5 +1,6 @@
 #include "server/real_engine.h"
 
+#include <cstdint>
 #include <future>
 
 #include "engine/engine.h"
@@ -25,13 +26,21 @@ PreprocessedShape RealEngine::preprocess(Surface surface, const Progress& progre
   return preprocess_apart("/proc/self/exe", threads_, std::move(surface), progress);
 }
 
-MatchResult RealEngine::match(const PreprocessedShape& source, const PreprocessedShape& target, const MatchParameters& parameters,
+std::shared_ptr<const MatchShape> RealEngine::match_shape(const ShapePointer& shape) const {
+  const std::string key = std::to_string(reinterpret_cast<std::uintptr_t>(shape.get()));
+  if (auto known = match_shapes_.find(key)) return known;
+  auto made = std::make_shared<const MatchShape>(shape);
+  match_shapes_.put(key, made, made->index_bytes());
+  return made;
+}
+
+MatchResult RealEngine::match(const ShapePointer& source, const ShapePointer& target, const MatchParameters& parameters,
                               const Progress& progress) const {
   // On a thread of its own, which can be nicer than the one that will write the response.
   return std::async(std::launch::async,
                     [&] {
                       be_nice(match_niceness);
-                      return spherematch::match(source, target, parameters, progress, threads_);
+                      return spherematch::match(*match_shape(source), *match_shape(target), parameters, progress, threads_);
                     })
       .get();
 }

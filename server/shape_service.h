@@ -30,8 +30,6 @@ struct ShapeServiceSettings {
   std::function<void(std::string_view stage, double seconds)> on_stage{};
 };
 
-using ShapePointer = std::shared_ptr<const PreprocessedShape>;
-
 /// Thread-safe. Errors are thrown as ProblemError, EngineError or StorageError.
 class ShapeService {
  public:

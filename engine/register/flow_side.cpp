@@ -1,6 +1,5 @@
 #include "engine/register/flow_side.h"
 
-#include <numbers>
 #include <utility>
 
 #include "engine/spectrum/signatures.h"
@@ -8,15 +7,6 @@
 
 namespace spherematch {
 namespace {
-
-Points grid_nodes(int n) {
-  Points nodes(static_cast<Eigen::Index>(n) * n, 3);
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i)
-      nodes.row(static_cast<Eigen::Index>(j) * n + i) =
-          sphere_point(std::numbers::pi * (j + 0.5) / n, 2 * std::numbers::pi * (i + 0.5) / n);
-  return nodes;
-}
 
 /// The map of nodes to `origins`, between the nodes.
 class OriginSamples {
@@ -46,7 +36,7 @@ class OriginSamples {
 
 GridFlowSide::GridFlowSide(const GridSamples& samples, const std::vector<Eigen::Index>& channels, const Eigen::Matrix3d& rotation,
                            int resolution)
-    : FlowSide(rotation), samples_(samples), channels_(channels), resolution_(resolution), origins_(grid_nodes(resolution) * rotation) {}
+    : FlowSide(rotation), samples_(samples), channels_(channels), resolution_(resolution), origins_(cell_centers(resolution) * rotation) {}
 
 std::vector<Harmonics> GridFlowSide::signals(const std::vector<std::size_t>& channels, const HarmonicTransform&,
                                              const HarmonicTransform& on_nodes) const {
@@ -64,12 +54,12 @@ std::vector<Harmonics> GridFlowSide::signals(const std::vector<std::size_t>& cha
 
 Points GridFlowSide::origins(int resolution) const {
   if (resolution == resolution_) return origins_;
-  return OriginSamples(origins_, resolution_).at(grid_nodes(resolution));
+  return OriginSamples(origins_, resolution_).at(cell_centers(resolution));
 }
 
 void GridFlowSide::move(const std::shared_ptr<const TangentField>& field, double step) {
   warp_.append(field, step);
-  Points before = grid_nodes(resolution_);
+  Points before = cell_centers(resolution_);
   advect(before, *field, -step);
   origins_ = OriginSamples(origins_, resolution_).at(before);
 }
@@ -98,7 +88,7 @@ std::vector<Harmonics> MeshFlowSide::signals(const std::vector<std::size_t>& cha
 
 void MeshFlowSide::follow(int) {}  // each call rasterises at the resolution it needs
 
-Points MeshFlowSide::origins(int resolution) const { return warp_.backward(grid_nodes(resolution)); }
+Points MeshFlowSide::origins(int resolution) const { return warp_.backward(cell_centers(resolution)); }
 
 void MeshFlowSide::move(const std::shared_ptr<const TangentField>& field, double step) {
   warp_.append(field, step);

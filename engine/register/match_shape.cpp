@@ -14,6 +14,7 @@ Grid grid_of(const SignalGrid& signal, bool mirrored) {
 }
 
 std::vector<Grid> grids_of(const PreprocessedShape& shape, bool mirrored) {
+  if (shape.signals.empty()) throw EngineError(ErrorCode::invalid_parameter, "the shape has no signals");
   std::vector<Grid> grids;
   for (const SignalGrid& signal : shape.signals) grids.push_back(grid_of(signal, mirrored));
   return grids;

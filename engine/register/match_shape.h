@@ -17,7 +17,7 @@ namespace spherematch {
 /// A shape as it was prepared, or its mirror image. Immutable, thread-safe.
 class MatchShape {
  public:
-  /// Keeps the shape. Takes some 50 ms for 50,000 vertices.
+  /// Keeps the shape. Takes some 50 ms for 50,000 vertices. @throws EngineError(invalid_parameter) when the shape has no signals
   explicit MatchShape(std::shared_ptr<const PreprocessedShape> shape, bool mirrored = false);
   MatchShape(const MatchShape&) = delete;
   MatchShape& operator=(const MatchShape&) = delete;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/data/tri_mesh.h"
+
 namespace spherematch {
 
 /// Values at the N x N cells: row j spans colatitudes [pi j / N, pi (j + 1) / N], column i longitudes
@@ -15,6 +17,16 @@ using Grid = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajo
 inline Eigen::Vector3d sphere_point(double colatitude, double longitude) {
   const double s = std::sin(colatitude);
   return {s * std::cos(longitude), s * std::sin(longitude), std::cos(colatitude)};
+}
+
+/// The N * N cell centres, row by row.
+inline Points cell_centers(int resolution) {
+  Points centers(static_cast<Eigen::Index>(resolution) * resolution, 3);
+  for (int j = 0; j < resolution; ++j)
+    for (int i = 0; i < resolution; ++i)
+      centers.row(static_cast<Eigen::Index>(j) * resolution + i) =
+          sphere_point(std::numbers::pi * (j + 0.5) / resolution, 2 * std::numbers::pi * (i + 0.5) / resolution);
+  return centers;
 }
 
 /// Solid angle of a cell in each row, (N).

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/mesh/laplacian.h"
+#include "engine/spectrum/signatures.h"
 #include "engine/sphere/orientation.h"
 #include "tests/support/meshes.h"
 #include "tests/support/surface_checks.h"
@@ -73,8 +74,9 @@ void expect_prepared(const PreprocessedShape& shape, const TriMesh& mesh, const 
   EXPECT_EQ(shape.eigenvalues.size(), parameters.eigenpairs);
   EXPECT_EQ(shape.eigenvectors.rows(), mesh.vertex_count());
   EXPECT_EQ(shape.engine, engine_version());
-  ASSERT_EQ(shape.signals.size(), parameters.hks_times.size());
-  EXPECT_EQ(shape.signals.back().name, "hks_0.01");
+  ASSERT_EQ(shape.signals.size(), parameters.hks_times.size() + selection_signal_names().size());
+  EXPECT_EQ(shape.signals[parameters.hks_times.size() - 1].name, "hks_0.01");
+  EXPECT_EQ(shape.signals.back().name, selection_signal_names().back());
   for (const SignalGrid& signal : shape.signals) {
     EXPECT_EQ(signal.values.rows(), parameters.signal_resolution);
     EXPECT_EQ(signal.values.cols(), parameters.signal_resolution);

@@ -83,8 +83,9 @@ class StubEngine final : public EnginePort {
     return shape;
   }
 
-  [[nodiscard]] MatchResult match(const PreprocessedShape& source, const PreprocessedShape& target, const MatchParameters& parameters,
+  [[nodiscard]] MatchResult match(const ShapePointer& source_shape, const ShapePointer& target_shape, const MatchParameters& parameters,
                                   const Progress& progress) const override {
+    const PreprocessedShape &source = *source_shape, &target = *target_shape;
     ++matches;
     while (hold_matches) {
       progress.check();

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "engine/mesh/repair.h"
-#include "engine/register/composition.h"
 #include "engine/sphere/orientation.h"
 #include "tests/support/meshes.h"
 #include "tests/support/surface_checks.h"
@@ -50,7 +52,7 @@ TEST(Hints, DetermineARotation) {
   const Points source = test::icosphere(3).vertices, target = source * test::some_rotation().transpose();
   const std::vector<PlacedHint> two{hint_between(3, 3), hint_between(100, 100)};
   for (std::vector<PlacedHint> hints : {two, std::vector<PlacedHint>{two[0], two[1], hint_between(200, 200), hint_between(300, 300)}}) {
-    const auto rotation = rotation_from_hints(source, target, hints);
+    const auto rotation = rotation_from_hints(directions(hints, source, target));
     ASSERT_TRUE(rotation.has_value());
     EXPECT_LT((*rotation - test::some_rotation()).norm(), 1e-12);
   }
@@ -63,7 +65,7 @@ TEST(Hints, OneWrongAmongFiveHardlyTurnsTheRotation) {
   std::int32_t opposite = 0;
   ((target.rowwise() + target.row(50)).rowwise().squaredNorm()).minCoeff(&opposite);
   hints.push_back(hint_between(50, opposite));
-  const auto rotation = rotation_from_hints(source, target, hints);
+  const auto rotation = rotation_from_hints(directions(hints, source, target));
   ASSERT_TRUE(rotation.has_value());
   EXPECT_LT((*rotation - test::some_rotation()).norm(), 0.1);  // least squares: 0.8
 }
@@ -72,9 +74,9 @@ TEST(Hints, OnOneAxisDetermineNothing) {
   const Points sphere = test::icosphere(2).vertices;
   std::int32_t opposite = 0;
   ((sphere.rowwise() + sphere.row(7)).rowwise().squaredNorm()).minCoeff(&opposite);
-  EXPECT_FALSE(rotation_from_hints(sphere, sphere, {}).has_value());
-  EXPECT_FALSE(rotation_from_hints(sphere, sphere, {hint_between(7, 9)}).has_value());
-  EXPECT_FALSE(rotation_from_hints(sphere, sphere, {hint_between(7, 7), hint_between(opposite, opposite)}).has_value());
+  EXPECT_FALSE(rotation_from_hints(directions({}, sphere, sphere)).has_value());
+  EXPECT_FALSE(rotation_from_hints(directions({hint_between(7, 9)}, sphere, sphere)).has_value());
+  EXPECT_FALSE(rotation_from_hints(directions({hint_between(7, 7), hint_between(opposite, opposite)}, sphere, sphere)).has_value());
 }
 
 class PullTogether : public ::testing::Test {
@@ -86,38 +88,39 @@ class PullTogether : public ::testing::Test {
     (mesh_.vertices * mesh_.vertices.row(vertex).transpose()).array().operator-(std::cos(wanted)).abs().minCoeff(&best);
     return best;
   }
-  Points source_ = mesh_.vertices, target_ = mesh_.vertices;
+  struct Pulled {
+    Points source, target;
+  };
+  [[nodiscard]] Pulled pulled(const std::vector<PlacedHint>& hints, double width, bool exchanged = false) const {
+    const Eigen::Matrix3d none = Eigen::Matrix3d::Identity();
+    const auto signals = std::make_shared<const MeshSignals>(mesh_.vertices, mesh_.faces, Eigen::MatrixXd(mesh_.vertex_count(), 0));
+    MeshFlowSide source(signals, none), target(signals, none);
+    HintDirections places = directions(hints, mesh_.vertices, mesh_.vertices);
+    if (exchanged) std::swap(places.source, places.target);
+    pull_together(source, target, places, width);
+    return {source.warp().forward(mesh_.vertices), target.warp().forward(mesh_.vertices)};
+  }
 };
 
 TEST_F(PullTogether, BringsHintsNearerWithoutFolding) {
   const std::vector<PlacedHint> hints{hint_between(10, near_to(10, 0.4)), hint_between(300, near_to(300, 0.3))};
-  Points exchanged_source = target_, exchanged_target = source_;
-  pull_together(source_, target_, hints, 1.0);
+  const auto [source, target] = pulled(hints, 1.0);
   for (const PlacedHint& hint : hints) {
     const std::int32_t i = hint.source.vertices[0], j = hint.target.vertices[0];
-    EXPECT_LT(angle(source_, i, target_, j), 0.25 * angle(mesh_.vertices, i, mesh_.vertices, j));
+    EXPECT_LT(angle(source, i, target, j), 0.25 * angle(mesh_.vertices, i, mesh_.vertices, j));
   }
-  EXPECT_LT((source_.rowwise().norm().array() - 1).abs().maxCoeff(), 1e-14);
-  EXPECT_TRUE(flipped_faces(source_, mesh_.faces).empty());
-  EXPECT_TRUE(flipped_faces(target_, mesh_.faces).empty());
-  pull_together(exchanged_source, exchanged_target, exchanged(hints), 1.0);
-  EXPECT_LT((exchanged_source - target_).norm(), 1e-12);
-  EXPECT_LT((exchanged_target - source_).norm(), 1e-12);
+  EXPECT_LT((source.rowwise().norm().array() - 1).abs().maxCoeff(), 1e-14);
+  EXPECT_TRUE(flipped_faces(source, mesh_.faces).empty());
+  EXPECT_TRUE(flipped_faces(target, mesh_.faces).empty());
+  const auto [exchanged_source, exchanged_target] = pulled(hints, 1.0, true);
+  EXPECT_LT((exchanged_source - target).norm(), 1e-12);
+  EXPECT_LT((exchanged_target - source).norm(), 1e-12);
 }
 
 TEST_F(PullTogether, LeavesHintsBeyondARightAngleAlone) {
-  pull_together(source_, target_, {hint_between(10, near_to(10, 2.0))}, 1.0);
-  EXPECT_TRUE(source_ == mesh_.vertices);
-  EXPECT_TRUE(target_ == mesh_.vertices);
-}
-
-TEST(Hints, DistanceIsBetweenImageAndTarget) {
-  const TriMesh mesh = test::creature(2);
-  const Points sphere = mesh.vertices.rowwise().normalized();
-  const std::vector<Location> identity = locate_all(sphere, PointLocation(sphere, mesh.faces));
-  EXPECT_LT(hint_distance({hint_between(4, 4), hint_between(9, 9)}, mesh, identity), 1e-12);
-  const double apart = (mesh.vertices.row(4) - mesh.vertices.row(9)).norm() / std::sqrt(test::total_area(mesh));
-  EXPECT_NEAR(hint_distance({hint_between(4, 9), hint_between(9, 9)}, mesh, identity), apart / 2, 1e-12);
+  const auto [source, target] = pulled({hint_between(10, near_to(10, 2.0))}, 1.0);
+  EXPECT_TRUE(source == mesh_.vertices);
+  EXPECT_TRUE(target == mesh_.vertices);
 }
 
 }  // namespace

@@ -3,49 +3,42 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
+#include <numbers>
 #include <vector>
 
 #include "engine/mesh/intrinsic_delaunay.h"
 #include "engine/mesh/laplacian.h"
-#include "engine/register/composition.h"
 #include "engine/spectrum/eigenbasis.h"
+#include "engine/spectrum/signatures.h"
+#include "engine/sphere/rasterizer.h"
 #include "tests/engine/sphere/spheres.h"
 #include "tests/support/meshes.h"
 
 namespace spherematch {
 namespace {
 
-/// The parts of a prepared shape that selection reads.
-PreprocessedShape shape_of(TriMesh mesh) {
+constexpr int kResolution = 64;
+
+Points turned_nodes(const Eigen::Matrix3d& turn) { return cell_centers(kResolution) * turn.transpose(); }
+
+TEST(SelectionSignals, TellTheEndsOfABodyApart) {
+  TriMesh mesh = test::creature(3);
   mesh.vertices /= std::sqrt(face_areas(mesh.vertices, mesh.faces).sum());
-  PreprocessedShape shape;
   IntrinsicMesh intrinsic = intrinsic_mesh(mesh);
   make_delaunay(intrinsic);
   const Eigenbasis basis = compute_eigenbasis(cotangent_laplacian(intrinsic, mesh.vertex_count()), 60, {});
-  shape.eigenvalues = basis.values;
-  shape.eigenvectors = basis.vectors.cast<float>();
-  shape.sphere = mesh.vertices.rowwise().normalized();
-  shape.surface.mesh = mesh;
-  return shape;
-}
-
-Eigen::VectorXd weights_of(const TriMesh& mesh) {
-  const Eigen::VectorXd areas = vertex_areas(mesh.vertices, mesh.faces);
-  return areas / areas.sum();
-}
-
-TEST(SelectionSignals, TellTheEndsOfABodyApart) {
-  const PreprocessedShape shape = shape_of(test::creature(3));
-  const Eigen::MatrixXd signals = selection_signals(shape);
-  ASSERT_EQ(signals.rows(), shape.surface.mesh.vertex_count());
-  ASSERT_GE(signals.cols(), 1);
+  const Eigen::MatrixXd signals = selection_signals(basis.values, basis.vectors.cast<float>());
+  ASSERT_EQ(signals.rows(), mesh.vertex_count());
+  ASSERT_EQ(signals.cols(), static_cast<Eigen::Index>(selection_signal_names().size()));
   EXPECT_TRUE(signals.allFinite());
-  const Triangles& faces = shape.surface.mesh.faces;
-  const Eigen::VectorXd weights = weights_of(shape.surface.mesh);
+
+  const GridSamples samples(rasterize_signals(mesh.vertices.rowwise().normalized(), mesh.faces, signals, kResolution));
+  std::vector<Eigen::Index> all;
+  for (Eigen::Index c = 0; c < signals.cols(); ++c) all.push_back(c);
+  const Points straight = turned_nodes(Eigen::Matrix3d::Identity());
   const auto cost = [&](const Eigen::Matrix3d& turn) {
-    const Points turned = test::rotated(shape.sphere, turn);
-    return registration_cost(signals, weights, signals, faces, locate_all(turned, PointLocation(shape.sphere, faces)));
+    const Points turned = turned_nodes(turn);
+    return registration_cost({samples, all, turned}, {samples, all, straight}, kResolution);
   };
   EXPECT_EQ(cost(Eigen::Matrix3d::Identity()), 0);
   const double slightly = cost(Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitX()).toRotationMatrix());
@@ -54,32 +47,40 @@ TEST(SelectionSignals, TellTheEndsOfABodyApart) {
     EXPECT_GT(cost(Eigen::AngleAxisd(std::numbers::pi, axis).toRotationMatrix()), 2 * slightly);
 }
 
-TEST(RegistrationCost, IsTheWeightedDifferenceAtTheImage) {
-  Triangles faces(1, 3);
-  faces << 2, 0, 1;
-  Eigen::MatrixXd source(2, 2), target(3, 2);
-  source << 1, 10, 2, 20;
-  target << 0, 8, 4, 16, 2, 4;
-  const std::vector<Location> locations{{0, {0.5, 0.25, 0.25}}, {0, {0, 0, 1}}};
-  // Images: 0.5 (2, 4) + 0.25 (0, 8) + 0.25 (4, 16) = (2, 8), and (4, 16).
-  const double cost = registration_cost(source, Eigen::Vector2d(0.25, 0.75), target, faces, locations);
-  EXPECT_NEAR(cost, 0.25 * (1 + 2) / 2 + 0.75 * (2 + 4) / 2, 1e-14);
+/// 1, x, z and -z, the last in a pack of its own.
+const GridSamples& known_functions() {
+  static const GridSamples samples({test::sampled(kResolution, [](const Eigen::Vector3d&) { return 1.0; }),
+                                    test::sampled(kResolution, [](const Eigen::Vector3d& p) { return p[0]; }),
+                                    test::sampled(kResolution, [](const Eigen::Vector3d& p) { return p[2]; }),
+                                    test::sampled(kResolution, [](const Eigen::Vector3d&) { return 3.0; }),
+                                    test::sampled(kResolution, [](const Eigen::Vector3d& p) { return -p[2]; })});
+  return samples;
+}
+
+using Cost = double (*)(const RegisteredSignals&, const RegisteredSignals&, int);
+
+double cost_between(Cost cost, const std::vector<Eigen::Index>& f, const std::vector<Eigen::Index>& g) {
+  const Points nodes = turned_nodes(Eigen::Matrix3d::Identity());
+  return cost({known_functions(), f, nodes}, {known_functions(), g, nodes}, kResolution);
+}
+
+TEST(RegistrationCost, IsTheMeanDifferenceOverSphereAndChannels) {
+  EXPECT_EQ(cost_between(registration_cost, {1, 2}, {1, 2}), 0);
+  EXPECT_NEAR(cost_between(registration_cost, {3}, {0}), 2, 1e-12);
+  // The mean of |2 z| over the sphere is one. Measured: 3e-4.
+  EXPECT_NEAR(cost_between(registration_cost, {2}, {4}), 1, 6e-4);
+  EXPECT_NEAR(cost_between(registration_cost, {3, 2}, {0, 4}), 1.5, 6e-4);
+  // The mean of |x - z| is that of |z| times the square root of two.
+  EXPECT_NEAR(cost_between(registration_cost, {1}, {2}), std::numbers::sqrt2 / 2, 6e-4);
 }
 
 TEST(PaperCost, OfKnownFunctionsIsTheirMeanDifference) {
-  const TriMesh mesh = test::icosphere(4);
-  const auto cost = [&](const Eigen::VectorXd& f, const Eigen::VectorXd& g) {
-    return paper_cost(mesh.vertices, mesh.faces, f, mesh.vertices, mesh.faces, g, 64);
-  };
-  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(mesh.vertex_count()), x = mesh.vertices.col(0), z = mesh.vertices.col(2);
-  EXPECT_EQ(cost(z, z), 0);
-  EXPECT_NEAR(cost(3 * ones, ones), 2, 1e-12);
-  // The mean of |2 x| over the sphere is one; degree one is damped by exp(-2 tau), tau = ln(100) / (32 * 33).
+  EXPECT_EQ(cost_between(paper_cost, {2}, {2}), 0);
+  EXPECT_NEAR(cost_between(paper_cost, {3}, {0}), 2, 1e-12);
+  // Degree one is damped by exp(-2 tau), tau = ln(100) / (32 * 33).
   const double damping = std::exp(-2 * std::log(100.0) / (32 * 33));
-  // Measured: 8e-4.
-  EXPECT_NEAR(cost(x, -x), damping, 1.6e-3);
-  EXPECT_NEAR(cost(z, -z), damping, 1.6e-3);
-  EXPECT_NEAR(cost(z, -z), cost(-z, z), 1e-15);
+  EXPECT_NEAR(cost_between(paper_cost, {2}, {4}), damping, 3e-4);
+  EXPECT_NEAR(cost_between(paper_cost, {2}, {4}), cost_between(paper_cost, {4}, {2}), 1e-15);
 }
 
 }  // namespace
