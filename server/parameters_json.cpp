@@ -44,7 +44,7 @@ api::Json to_json(const PreprocessParameters& parameters) {
 
 api::Json to_json(const MatchParameters& parameters) {
   const auto& [rotation_time, rotation_bandwidth, max_candidates, candidate_separation, candidate_threshold, flow_times, flow_resolution,
-               flow_iterations, flow_smoothness, finest_flow, flow_tolerance, mesh_flow, fine_candidates, paper_selection, orientation,
+               flow_iterations, flow_settled, flow_smoothness, finest_flow, flow_tolerance, mesh_flow, fine_candidates, paper_selection, orientation,
                hints, both] = parameters;
   api::Json pairs = api::Json::array();
   for (const auto& [source, target] : hints) pairs.push_back({source, target});
@@ -56,6 +56,7 @@ api::Json to_json(const MatchParameters& parameters) {
           {"flow_times", flow_times},
           {"flow_resolution", flow_resolution},
           {"flow_iterations", flow_iterations},
+          {"flow_settled", flow_settled},
           {"flow_smoothness", flow_smoothness},
           {"finest_flow", finest_flow},
           {"flow_tolerance", flow_tolerance},

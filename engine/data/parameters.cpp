@@ -66,6 +66,7 @@ void MatchParameters::validate() const {
   require(flow_iterations >= 0 && flow_iterations <= 100, "flow_iterations", "must be 0 to 100");
   require(fine_candidates >= 1, "fine_candidates", "must be at least 1");
   require(finest_flow >= 8 && finest_flow <= 512 && finest_flow % 2 == 0, "finest_flow", "must be even, 8 to 512");
+  require(flow_settled >= 0 && flow_settled < 1, "flow_settled", "must be at least 0 and below 1");
   require(positive(flow_tolerance) && flow_tolerance < 1, "flow_tolerance", "must be above 0 and below 1");
   require(positive(flow_smoothness), "flow_smoothness", "must be positive");
   require(hints.size() <= max_hints, "hints", "must hold at most 64 pairs");
@@ -83,6 +84,7 @@ MatchParameters MatchParameters::paper() {
   parameters.mesh_flow = true;
   parameters.finest_flow = 512;
   parameters.flow_tolerance = 1e-5;
+  parameters.flow_settled = 0;
   return parameters;
 }
 

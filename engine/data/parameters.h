@@ -69,7 +69,8 @@ struct MatchParameters {
   // Optical flow (engine/register/optical_flow.h): level i has resolution flow_resolution * 2^i and the signal of flow_times[i]
   std::vector<double> flow_times{0.5, 0.25, 0.125, 0.0625};
   int flow_resolution = 16;
-  int flow_iterations = 6;        ///< per level
+  int flow_iterations = 6;        ///< per level, at most
+  double flow_settled = 0.02;     ///< radians: a level ends with the first step that moves no point farther
   double flow_smoothness = 0.05;  ///< alpha
   int finest_flow = 64;           ///< resolution above which no level is solved; its smoothing stays that of the level
   double flow_tolerance = 0.03;   ///< of each solve, on the residual

@@ -38,6 +38,7 @@ FlowParameters flow_levels(const MatchParameters& parameters, std::size_t first,
   FlowParameters flow;
   flow.smoothness = parameters.flow_smoothness;
   flow.tolerance = parameters.flow_tolerance;
+  flow.settled = parameters.flow_settled;
   flow.finest_resolution = parameters.finest_flow;
   for (std::size_t level = first; level < last; ++level)
     flow.levels.push_back({parameters.flow_resolution << level, parameters.flow_iterations, {level}});

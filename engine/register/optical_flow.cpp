@@ -106,7 +106,7 @@ std::vector<Harmonics> level_signals(const FlowSide& side, const FlowPlan::Level
 }  // namespace
 
 FlowPlan::FlowPlan(FlowParameters parameters, int nodes)
-    : smoothness_(parameters.smoothness), tolerance_(parameters.tolerance), nodes_(nodes) {
+    : smoothness_(parameters.smoothness), tolerance_(parameters.tolerance), settled_(parameters.settled), nodes_(nodes) {
   const auto solved = [&](const FlowLevel& level) { return std::min(level.resolution, parameters.finest_resolution); };
   int finest = 0;
   for (const FlowLevel& level : parameters.levels) finest = std::max(finest, solved(level));
@@ -130,9 +130,11 @@ void flow_together(FlowSide& source, FlowSide& target, const FlowPlan& plan, con
       for (std::size_t c = 0; c < f.size(); ++c) system.add_channel(f[c], g[c]);
       Harmonics stream = system.solve();
       smooth(degree, cutoff_smoothing(level.level.resolution / 2, 100.0 * level.level.resolution), stream);
-      const auto field = std::make_shared<const TangentField>(level.on_nodes.synthesize_tangent({}, stream));
+      const TangentGrid step = level.on_nodes.synthesize_tangent({}, stream);
+      const auto field = std::make_shared<const TangentField>(step);
       source.move(field, 0.5);
       target.move(field, -0.5);
+      if ((step.colatitude.square() + step.longitude.square()).maxCoeff() < plan.settled() * plan.settled()) break;
     }
   }
 }

@@ -11,8 +11,8 @@ namespace spherematch {
 
 /// One level of the hierarchy.
 struct FlowLevel {
-  int resolution;  ///< N: signals and fields are smoothed as suits harmonics up to N / 2
-  int iterations;
+  int resolution;                     ///< N: signals and fields are smoothed as suits harmonics up to N / 2
+  int iterations;                     ///< at most
   std::vector<std::size_t> channels;  ///< of the sides' signals: what drives this level
 };
 
@@ -20,6 +20,7 @@ struct FlowParameters {
   std::vector<FlowLevel> levels;
   double smoothness = 0.05;     ///< alpha
   double tolerance = 1e-5;      ///< of the conjugate gradients: the residual, against the one at the start
+  double settled = 0;           ///< radians: a level ends with the first step that moves no point farther
   int finest_resolution = 128;  ///< levels above it are solved on a grid of this resolution
 };
 
@@ -37,11 +38,13 @@ class FlowPlan {
   [[nodiscard]] const std::vector<Level>& levels() const { return levels_; }
   [[nodiscard]] double smoothness() const { return smoothness_; }
   [[nodiscard]] double tolerance() const { return tolerance_; }
+  [[nodiscard]] double settled() const { return settled_; }
   [[nodiscard]] int nodes() const { return nodes_; }
 
  private:
   double smoothness_;
   double tolerance_;
+  double settled_;
   int nodes_;
   std::vector<Level> levels_;
 };
