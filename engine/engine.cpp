@@ -11,7 +11,6 @@
 #include "engine/evaluate/map_error.h"
 #include "engine/io/mesh_reader.h"
 #include "engine/mesh/decimate.h"
-#include "engine/mesh/intrinsic_delaunay.h"
 #include "engine/mesh/laplacian.h"
 #include "engine/mesh/repair.h"
 #include "engine/register/registration.h"
@@ -122,7 +121,7 @@ PreprocessedShape preprocess(Surface surface, const PreprocessParameters& parame
   const TriMesh mesh = unit_area(surface.working_mesh());
   PreprocessedShape shape;
   SphereBranch branch;
-  Eigenbasis basis;
+  FloatEigenbasis basis;
   double eigenbasis_seconds = 0;
   JointProgress joint(progress, 0.6);
   run_parallel(2, threads, [&](std::size_t task) {
@@ -130,12 +129,7 @@ PreprocessedShape preprocess(Surface surface, const PreprocessParameters& parame
       branch = parametrize(mesh, parameters, progress, joint);
     } else {
       const auto began = Clock::now();
-      IntrinsicMesh intrinsic = intrinsic_mesh(mesh);
-      make_delaunay(intrinsic);
-      const Laplacian laplacian = cotangent_laplacian(intrinsic, mesh.vertices.rows());
-      basis = parameters.single_vector_lanczos ? compute_eigenbasis_by_single_vectors(laplacian, parameters.eigenpairs, progress)
-                                               : compute_eigenbasis(laplacian, parameters.eigenpairs, progress,
-                                                                    [&joint](double fraction) { joint.update(1, "eigenbasis", fraction); });
+      basis = surface_eigenbasis(mesh, parameters, 1, progress, [&joint](double fraction) { joint.update(1, "eigenbasis", fraction); });
       eigenbasis_seconds = seconds_since(began);
       joint.update(1, "eigenbasis", 1);
     }
@@ -145,7 +139,7 @@ PreprocessedShape preprocess(Surface surface, const PreprocessParameters& parame
   shape.sphere = std::move(branch.sphere);
   shape.sphere_quality = measure_sphere(shape.sphere, mesh);
   shape.eigenvalues = basis.values;
-  shape.eigenvectors = basis.vectors.cast<float>();
+  shape.eigenvectors = std::move(basis.vectors);
   shape.signals = signal_grids(shape, mesh.faces, parameters);
   const double simplify_seconds = surface.decimated ? surface.decimated->seconds : 0;
   if (surface.decimated) shape.seconds.emplace_back("simplify", simplify_seconds);

@@ -25,8 +25,8 @@ const char* name_of(Orientation orientation) {
 
 api::Json to_json(const PreprocessParameters& parameters) {
   const auto& [conformal_steps, conformal_step_size, collapse_passes, collapse_steps, collapse_threshold, authalic_resolution,
-               authalic_steps, authalic_step_size, authalic_smoothing, eigenpairs, single_vector_lanczos, hks_times, signal_resolution] =
-      parameters;
+               authalic_steps, authalic_step_size, authalic_smoothing, eigenpairs, multilevel_eigenbasis, single_vector_lanczos, hks_times,
+               signal_resolution] = parameters;
   return {{"conformal_steps", conformal_steps},
           {"conformal_step_size", conformal_step_size},
           {"collapse_passes", collapse_passes},
@@ -37,6 +37,7 @@ api::Json to_json(const PreprocessParameters& parameters) {
           {"authalic_step_size", authalic_step_size},
           {"authalic_smoothing", authalic_smoothing},
           {"eigenpairs", eigenpairs},
+          {"multilevel_eigenbasis", multilevel_eigenbasis},
           {"single_vector_lanczos", single_vector_lanczos},
           {"hks_times", hks_times},
           {"signal_resolution", signal_resolution}};

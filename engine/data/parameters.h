@@ -33,7 +33,8 @@ struct PreprocessParameters {
 
   // Eigenbasis and signals (engine/spectrum)
   int eigenpairs = 200;
-  bool single_vector_lanczos = false;  ///< the slower eigensolver, for comparison (engine/spectrum/eigenbasis.h)
+  bool multilevel_eigenbasis = true;   ///< by subspaces on ever finer meshes; otherwise, at full size (engine/spectrum/eigenbasis.h)
+  bool single_vector_lanczos = false;  ///< the slowest eigensolver, for comparison
   std::vector<double> hks_times{1.0, 0.5, 0.25, 0.125, 0.0625, 0.01};
   int signal_resolution = 128;
 
