@@ -50,6 +50,7 @@ PreprocessParameters PreprocessParameters::paper() {
   parameters.collapse_passes = 0;
   parameters.authalic_steps = 100;
   parameters.authalic_step_size = 0.005;
+  parameters.exact_rasterization = true;
   parameters.single_vector_lanczos = true;
   return parameters;
 }

@@ -30,6 +30,7 @@ struct PreprocessParameters {
   int authalic_steps = 50;
   double authalic_step_size = 0.01;    ///< stable below 2 e tau
   double authalic_smoothing = 0.0025;  ///< tau: coefficient l is damped by exp(-tau l (l + 1))
+  bool exact_rasterization = false;    ///< the slower way to the area density, for comparison (engine/sphere/rasterizer.h)
 
   // Eigenbasis and signals (engine/spectrum)
   int eigenpairs = 200;

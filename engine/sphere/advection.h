@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/data/tri_mesh.h"
+#include "engine/sphere/grid_place.h"
 #include "engine/sphere/harmonics.h"
 
 namespace spherematch {
@@ -17,6 +18,9 @@ class TangentField {
 
   /// The vector at a unit vector `p`, tangent there.
   [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& p) const;
+
+  /// The same before the part along p, which rounding and interpolation leave, is taken off.
+  [[nodiscard]] Eigen::Vector3d interpolate(const GridPlace& place) const;
 
  private:
   int resolution_;
