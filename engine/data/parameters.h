@@ -21,7 +21,7 @@ struct PreprocessParameters {
   // Conformalised mean curvature flow (engine/sphere/conformal_flow.h)
   int conformal_steps = 100;
   double conformal_step_size = 0.4;      ///< at unit area with the standard cotangent stiffness
-  double conformal_tolerance = 5e-4;     ///< a pass ends when a step moves points less than this on the sphere of unit area; 0 for never
+  double conformal_tolerance = 2e-3;     ///< a pass ends when a step moves points less than this on the sphere of unit area; 0 for never
   int conformal_coarse_vertices = 5000;  ///< a surface of clearly more flows as a copy of so many first; 0 for never
   int conformal_fine_steps = 1;          ///< of the surface itself after that
   int collapse_passes = 3;               ///< reweighted passes against the collapse of limbs; 0 for the plain conformal map

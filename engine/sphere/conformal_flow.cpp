@@ -16,6 +16,7 @@ namespace spherematch {
 namespace {
 
 constexpr double kLeastConductivity = 1e-30;  ///< keeps the system regular
+constexpr int kLeastSteps = 3;                ///< of a pass: its first ones move little yet
 
 /// Linear size of each face on the sphere over its size on the surface, both of total area one.
 Eigen::VectorXd conformal_factors(const Points& x, const Triangles& faces, const Eigen::VectorXd& surface_areas) {
@@ -68,7 +69,7 @@ std::optional<FlowState> evolve(const Body& body, const PreprocessParameters& pa
       progress.check();
       if (report) report(static_cast<double>(before + step) / all);
       if (!solver.step()) return false;
-      if (solver.last_move() < parameters.conformal_tolerance) break;
+      if (step + 1 >= kLeastSteps && solver.last_move() < parameters.conformal_tolerance) break;
     }
     before += steps;
     return true;
