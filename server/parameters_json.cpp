@@ -24,11 +24,14 @@ const char* name_of(Orientation orientation) {
 // Entity tags are made of these texts, so a field that is left out would let two different results share a tag.
 
 api::Json to_json(const PreprocessParameters& parameters) {
-  const auto& [conformal_steps, conformal_step_size, collapse_passes, collapse_steps, collapse_threshold, authalic_resolution,
-               authalic_steps, authalic_step_size, authalic_smoothing, eigenpairs, multilevel_eigenbasis, single_vector_lanczos, hks_times,
-               signal_resolution] = parameters;
+  const auto& [conformal_steps, conformal_step_size, conformal_tolerance, conformal_coarse_vertices, conformal_fine_steps, collapse_passes,
+               collapse_steps, collapse_threshold, authalic_resolution, authalic_steps, authalic_step_size, authalic_smoothing,
+               exact_rasterization, eigenpairs, multilevel_eigenbasis, single_vector_lanczos, hks_times, signal_resolution] = parameters;
   return {{"conformal_steps", conformal_steps},
           {"conformal_step_size", conformal_step_size},
+          {"conformal_tolerance", conformal_tolerance},
+          {"conformal_coarse_vertices", conformal_coarse_vertices},
+          {"conformal_fine_steps", conformal_fine_steps},
           {"collapse_passes", collapse_passes},
           {"collapse_steps", collapse_steps},
           {"collapse_threshold", collapse_threshold},
@@ -36,6 +39,7 @@ api::Json to_json(const PreprocessParameters& parameters) {
           {"authalic_steps", authalic_steps},
           {"authalic_step_size", authalic_step_size},
           {"authalic_smoothing", authalic_smoothing},
+          {"exact_rasterization", exact_rasterization},
           {"eigenpairs", eigenpairs},
           {"multilevel_eigenbasis", multilevel_eigenbasis},
           {"single_vector_lanczos", single_vector_lanczos},
@@ -45,8 +49,8 @@ api::Json to_json(const PreprocessParameters& parameters) {
 
 api::Json to_json(const MatchParameters& parameters) {
   const auto& [rotation_time, rotation_bandwidth, max_candidates, candidate_separation, candidate_threshold, flow_times, flow_resolution,
-               flow_iterations, flow_settled, flow_smoothness, finest_flow, flow_tolerance, mesh_flow, fine_candidates, paper_selection, orientation,
-               hints, both] = parameters;
+               flow_iterations, flow_settled, flow_smoothness, finest_flow, flow_tolerance, mesh_flow, fine_candidates, paper_selection,
+               orientation, hints, both] = parameters;
   api::Json pairs = api::Json::array();
   for (const auto& [source, target] : hints) pairs.push_back({source, target});
   return {{"rotation_time", rotation_time},

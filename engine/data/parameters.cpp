@@ -30,6 +30,10 @@ std::optional<std::int32_t> vertex_number(std::string_view text) {
 void PreprocessParameters::validate() const {
   require(conformal_steps >= 1 && conformal_steps <= 1000, "conformal_steps", "must be 1 to 1000");
   require(positive(conformal_step_size), "conformal_step_size", "must be positive");
+  require(std::isfinite(conformal_tolerance) && conformal_tolerance >= 0, "conformal_tolerance", "must be at least 0");
+  require(conformal_coarse_vertices == 0 || (conformal_coarse_vertices >= 100 && conformal_coarse_vertices <= 1'000'000),
+          "conformal_coarse_vertices", "must be 0 or 100 to 1000000");
+  require(conformal_fine_steps >= 0 && conformal_fine_steps <= 100, "conformal_fine_steps", "must be 0 to 100");
   require(collapse_passes >= 0 && collapse_passes <= 10, "collapse_passes", "must be 0 to 10");
   require(collapse_steps >= 1 && collapse_steps <= 1000, "collapse_steps", "must be 1 to 1000");
   require(positive(collapse_threshold) && collapse_threshold <= 1, "collapse_threshold", "must be above 0 and at most 1");
@@ -47,10 +51,13 @@ void PreprocessParameters::validate() const {
 
 PreprocessParameters PreprocessParameters::paper() {
   PreprocessParameters parameters;
+  parameters.conformal_tolerance = 0;
+  parameters.conformal_coarse_vertices = 0;
   parameters.collapse_passes = 0;
   parameters.authalic_steps = 100;
   parameters.authalic_step_size = 0.005;
   parameters.multilevel_eigenbasis = false;
+  parameters.exact_rasterization = true;
   parameters.single_vector_lanczos = true;
   return parameters;
 }

@@ -20,16 +20,20 @@ struct ReadLimits {
 struct PreprocessParameters {
   // Conformalised mean curvature flow (engine/sphere/conformal_flow.h)
   int conformal_steps = 100;
-  double conformal_step_size = 0.4;  ///< at unit area with the standard cotangent stiffness
-  int collapse_passes = 3;           ///< reweighted passes against the collapse of limbs; 0 for the plain conformal map
-  int collapse_steps = 10;           ///< flow steps in each pass
-  double collapse_threshold = 0.3;   ///< linear scale below which a region counts as collapsed
+  double conformal_step_size = 0.4;      ///< at unit area with the standard cotangent stiffness
+  double conformal_tolerance = 2e-3;     ///< a pass ends when a step moves points less than this on the sphere of unit area; 0 for never
+  int conformal_coarse_vertices = 5000;  ///< a surface of clearly more flows as a copy of so many first; 0 for never
+  int conformal_fine_steps = 1;          ///< of the surface itself after that
+  int collapse_passes = 3;               ///< reweighted passes against the collapse of limbs; 0 for the plain conformal map
+  int collapse_steps = 10;               ///< flow steps in each pass
+  double collapse_threshold = 0.3;       ///< linear scale below which a region counts as collapsed
 
   // Authalic evolution (engine/sphere/authalic_evolution.h)
   int authalic_resolution = 256;
   int authalic_steps = 50;
   double authalic_step_size = 0.01;    ///< stable below 2 e tau
   double authalic_smoothing = 0.0025;  ///< tau: coefficient l is damped by exp(-tau l (l + 1))
+  bool exact_rasterization = false;    ///< the slower way to the area density, for comparison (engine/sphere/rasterizer.h)
 
   // Eigenbasis and signals (engine/spectrum)
   int eigenpairs = 200;

@@ -91,7 +91,7 @@ void step_all(const Batch& p, const Batch& v, Batch& q) {
     const double cosine = 1 - s / 2 * (1 - s / 12 * (1 - s / 30 * (1 - s / 56 * (1 - s / 90))));
     const double sine = 1 - s / 6 * (1 - s / 20 * (1 - s / 42 * (1 - s / 72 * (1 - s / 110))));  // over the length
     const double x = cosine * p.x[i] + sine * v.x[i], y = cosine * p.y[i] + sine * v.y[i], z = cosine * p.z[i] + sine * v.z[i];
-    const double scale = 1 / std::sqrt(x * x + y * y + z * z);
+    const double scale = s > 0 ? 1 / std::sqrt(x * x + y * y + z * z) : 1;
     q.x[i] = scale * x;
     q.y[i] = scale * y;
     q.z[i] = scale * z;

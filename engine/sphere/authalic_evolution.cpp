@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/mesh/laplacian.h"
+#include "engine/mesh/spatial_order.h"
 #include "engine/sphere/advection.h"
+#include "engine/sphere/density_sampler.h"
 #include "engine/sphere/flip_repair.h"
 #include "engine/sphere/harmonics.h"
 #include "engine/sphere/mobius.h"
-#include "engine/sphere/orientation.h"
 #include "engine/sphere/rasterizer.h"
 
 namespace spherematch {
@@ -22,38 +24,65 @@ int smoothed_degree(double smoothing, int resolution) {
   return std::clamp(degree, 1, resolution / 2 - 1);
 }
 
+/// The logarithm of the mass per solid angle that the faces carry, by samples or by the exact rasteriser.
+class LogDensity {
+ public:
+  LogDensity(const Triangles& faces, Eigen::VectorXd face_mass, const PreprocessParameters& parameters)
+      : faces_(faces),
+        face_mass_(std::move(face_mass)),
+        exact_(parameters.exact_rasterization),
+        resolution_(parameters.authalic_resolution),
+        areas_(cell_areas(resolution_)),
+        sampler_(resolution_) {}
+
+  [[nodiscard]] Grid operator()(const Points& sphere) const {
+    const double least = 1e-12;  // of the mean: keeps a cell that no triangle reaches finite
+    if (!exact_) return sampler_.log_density(sphere, faces_, face_mass_, least);
+    const double floor = least / (resolution_ * resolution_);
+    return (rasterize_mass(sphere, faces_, face_mass_, resolution_).max(floor).colwise() / areas_).log();
+  }
+
+ private:
+  const Triangles& faces_;
+  Eigen::VectorXd face_mass_;
+  bool exact_;
+  int resolution_;
+  Eigen::ArrayXd areas_;
+  DensitySampler sampler_;
+};
+
 }  // namespace
 
-void evolve_authalically(Points& sphere, const TriMesh& surface, const PreprocessParameters& parameters, const Progress& progress,
+void evolve_authalically(Points& original, const TriMesh& surface, const PreprocessParameters& parameters, const Progress& progress,
                          const std::function<void(double)>& report) {
-  const Triangles& faces = surface.faces;
-  Eigen::VectorXd face_mass = face_areas(surface.vertices, faces);
+  const std::vector<std::int32_t> order = spatial_order(surface.vertices);
+  const TriMesh mesh = renumbered(surface, order);
+  const Triangles& faces = mesh.faces;
+  Points sphere = original(order, Eigen::all);
+  Eigen::VectorXd face_mass = face_areas(mesh.vertices, faces), vertex_mass = vertex_areas(mesh.vertices, faces);
   face_mass /= face_mass.sum();
+  vertex_mass /= vertex_mass.sum();
   const int n = parameters.authalic_resolution;
   const int degree = smoothed_degree(parameters.authalic_smoothing, n);
   const HarmonicTransform transform(n, degree);
-  const Eigen::ArrayXd areas = cell_areas(n).array();
-  const FlipRepair repair(surface);
-  const double floor = 1e-12 / (n * n);  // of the total area: keeps a cell that no triangle reaches finite
+  const FlipRepair repair(mesh);
+  const LogDensity log_density(faces, face_mass, parameters);
 
   // Coarse limbs cannot follow the flow without flips, since their rings become polygons thinner than their own bend. So each
   // step is projected back to where nothing flips. Where that fails a later step mostly mends it; if not, the last good one counts.
   Points last_good = sphere;
-  bool good = true;
   for (int step = 0; step < parameters.authalic_steps; ++step) {
     progress.check();
     report(static_cast<double>(step) / parameters.authalic_steps);
-    const Grid log_scale = (rasterize_mass(sphere, faces, face_mass, n).max(floor).colwise() / areas).log();
-    Harmonics smooth = transform.analyze(log_scale);
+    Harmonics smooth = transform.analyze(log_density(sphere));
     scale_degrees(degree, smooth, [&](int l) { return -std::exp(-parameters.authalic_smoothing * l * (l + 1)); });
-    const TangentField velocity(transform.synthesize_tangent(smooth, {}));
-
-    advect(sphere, velocity, parameters.authalic_step_size);
-    for (int i = 0; i < kCenteringSteps; ++i) centering_step(sphere, faces, face_mass);
-    good = repair.repair(sphere);
-    if (good) last_good = sphere;
+    advect(sphere, TangentField(transform.synthesize_tangent(smooth, {})), parameters.authalic_step_size);
+    // Steps are short, so that one on the way is as good as three; the last state is centred as exactly as the first.
+    centering_step(sphere, vertex_mass);
+    for (int i = 0; i < kCenteringSteps && step + 1 == parameters.authalic_steps; ++i) centering_step(sphere, faces, face_mass);
+    if (repair.repair(sphere)) last_good = sphere;
   }
-  if (!good) sphere = last_good;
+  original(order, Eigen::all) = last_good;
 }
 
 }  // namespace spherematch

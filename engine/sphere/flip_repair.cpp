@@ -11,21 +11,21 @@
 namespace spherematch {
 
 FlipRepair::FlipRepair(const Points& surface_vertices, const Triangles& faces)
-    : faces_(faces.rows(), 3),
+    : faces_(faces),
+      rank_(static_cast<std::size_t>(faces.rows())),
       start_(static_cast<std::size_t>(surface_vertices.rows()) + 1, 0),
       face_(static_cast<std::size_t>(faces.size())) {
   const Eigen::VectorXd areas = face_areas(surface_vertices, faces);
-  std::vector<std::int32_t> order(static_cast<std::size_t>(faces.rows()));
+  std::vector<std::int32_t> order(rank_.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&areas](std::int32_t f, std::int32_t g) { return areas[f] < areas[g]; });
-  for (std::size_t f = 0; f < order.size(); ++f) faces_.row(static_cast<Eigen::Index>(f)) = faces.row(order[f]);
+  for (std::size_t i = 0; i < order.size(); ++i) rank_[static_cast<std::size_t>(order[i])] = static_cast<std::int32_t>(i);
 
   for (Eigen::Index i = 0; i < faces_.size(); ++i) ++start_[static_cast<std::size_t>(faces_.data()[i]) + 1];
   for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
   std::vector<std::int32_t> next(start_.begin(), start_.end() - 1);
-  for (Eigen::Index f = 0; f < faces_.rows(); ++f)
-    for (int k = 0; k < 3; ++k)
-      face_[static_cast<std::size_t>(next[static_cast<std::size_t>(faces_(f, k))]++)] = static_cast<std::int32_t>(f);
+  for (const std::int32_t f : order)
+    for (int k = 0; k < 3; ++k) face_[static_cast<std::size_t>(next[static_cast<std::size_t>(faces_(f, k))]++)] = f;
 }
 
 bool FlipRepair::repair(Points& sphere) const {
@@ -33,21 +33,45 @@ bool FlipRepair::repair(Points& sphere) const {
     double thinness;
     int passes;
   };
-  for (const Attempt& attempt : {Attempt{0.01, 30}, Attempt{0.003, 200}, Attempt{0.0005, 400}}) {
-    widen_all(sphere, attempt.thinness, attempt.passes);
-    if (flipped_faces(sphere, faces_).empty()) return true;
+  constexpr Attempt kAttempts[] = {{0.01, 30}, {0.003, 200}, {0.0005, 400}};
+  std::vector<std::int32_t> suspects;
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(faces_.rows()); ++f)
+    if (may_be_thin(sphere, f, kAttempts[0].thinness)) suspects.push_back(f);
+  if (suspects.empty()) return true;
+
+  std::vector<char> touched(static_cast<std::size_t>(faces_.rows()), 0);
+  for (const std::int32_t f : suspects) touched[static_cast<std::size_t>(f)] = 1;
+  for (const Attempt& attempt : kAttempts) {
+    std::sort(suspects.begin(), suspects.end(),
+              [this](std::int32_t f, std::int32_t g) { return rank_[static_cast<std::size_t>(f)] < rank_[static_cast<std::size_t>(g)]; });
+    widen_all(sphere, suspects, attempt.thinness, attempt.passes, touched);
+    suspects.clear();
+    bool flipped = false;
+    for (std::int32_t f = 0; f < static_cast<std::int32_t>(faces_.rows()); ++f) {
+      if (!touched[static_cast<std::size_t>(f)]) continue;
+      suspects.push_back(f);
+      flipped = flipped || orientation(corner(sphere, f, 0), corner(sphere, f, 1), corner(sphere, f, 2)) <= 0;
+    }
+    if (!flipped) return true;
   }
   return false;
 }
 
-void FlipRepair::widen_all(Points& sphere, double thinness, int max_passes) const {
-  std::vector<std::int32_t> active(static_cast<std::size_t>(faces_.rows()));
-  std::iota(active.begin(), active.end(), 0);
-  std::vector<char> queued(active.size(), 0);
+bool FlipRepair::may_be_thin(const Points& sphere, std::int32_t face, double thinness) const {
+  const Eigen::Vector3d a = corner(sphere, face, 0), ab = corner(sphere, face, 1) - a, ac = corner(sphere, face, 2) - a;
+  const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
+  // The height is at least the volume over the squared length. Far above rounding the volume's sign is beyond doubt.
+  return !(a.dot(ab.cross(ac)) > 1.001 * thinness * longest && longest > 1e-20);
+}
+
+void FlipRepair::widen_all(Points& sphere, std::vector<std::int32_t> active, double thinness, int max_passes,
+                           std::vector<char>& touched) const {
+  std::vector<char> queued(touched.size(), 0);
+  std::vector<std::int32_t> next;
   for (int pass = 0; pass < max_passes && !active.empty(); ++pass) {
-    std::vector<std::int32_t> next;
+    next.clear();
     for (const std::int32_t f : active) {
-      if (!widen(sphere, f, thinness)) continue;
+      if (!may_be_thin(sphere, f, thinness) || !widen(sphere, f, thinness)) continue;
       for (int k = 0; k < 3; ++k) {
         const auto v = static_cast<std::size_t>(faces_(f, k));
         for (std::int32_t j = start_[v]; j < start_[v + 1]; ++j) {
@@ -57,14 +81,16 @@ void FlipRepair::widen_all(Points& sphere, double thinness, int max_passes) cons
         }
       }
     }
-    for (const std::int32_t f : next) queued[static_cast<std::size_t>(f)] = 0;
-    active = std::move(next);
+    for (const std::int32_t f : next) {
+      queued[static_cast<std::size_t>(f)] = 0;
+      touched[static_cast<std::size_t>(f)] = 1;
+    }
+    std::swap(active, next);
   }
 }
 
 bool FlipRepair::widen(Points& sphere, std::int32_t face, double thinness) const {
-  Eigen::Vector3d p[3];
-  for (int k = 0; k < 3; ++k) p[k] = sphere.row(faces_(face, k));
+  const Eigen::Vector3d p[3] = {corner(sphere, face, 0), corner(sphere, face, 1), corner(sphere, face, 2)};
   int top = 0;  // opposite the longest edge
   double longest = 0;
   for (int k = 0; k < 3; ++k) {

@@ -20,16 +20,23 @@ class FlipRepair {
   /// Returns whether no face is flipped any more.
   [[nodiscard]] bool repair(Points& sphere) const;
 
-  [[nodiscard]] std::size_t bytes() const { return 4 * (static_cast<std::size_t>(faces_.size()) + start_.size() + face_.size()); }
+  [[nodiscard]] std::size_t bytes() const { return 4 * (static_cast<std::size_t>(faces_.size()) + rank_.size() + start_.size() + face_.size()); }
 
  private:
-  /// Each face whose height over its longest edge is below `thinness` times that edge gets, in turn, the smallest move of its
-  /// corners that restores it, until none is left or `max_passes` are done. Vertices away from such faces stay.
-  void widen_all(Points& sphere, double thinness, int max_passes) const;
-  [[nodiscard]] bool widen(Points& sphere, std::int32_t face, double thinness) const;
+  /// Whether the face's height over its longest edge may be less than `thinness` times that edge; never false where it is, or where the
+  /// face is flipped.
+  [[nodiscard]] bool may_be_thin(const Points& sphere, std::int32_t face, double thinness) const;
 
-  Triangles faces_;                         ///< by growing area on the surface
-  std::vector<std::int32_t> start_, face_;  ///< the faces around each vertex, compressed rows
+  /// Each face of `active` whose height over its longest edge is below `thinness` times that edge gets, in turn, the smallest move of
+  /// its corners that restores it, then each face round a moved corner, until none is left or `max_passes` are done. `touched` gains
+  /// the faces with a moved corner.
+  void widen_all(Points& sphere, std::vector<std::int32_t> active, double thinness, int max_passes, std::vector<char>& touched) const;
+  [[nodiscard]] bool widen(Points& sphere, std::int32_t face, double thinness) const;
+  [[nodiscard]] Eigen::Vector3d corner(const Points& sphere, std::int32_t face, int k) const { return sphere.row(faces_(face, k)); }
+
+  Triangles faces_;
+  std::vector<std::int32_t> rank_;          ///< of each face among all by growing area on the surface
+  std::vector<std::int32_t> start_, face_;  ///< the faces around each vertex by rank, compressed rows
 };
 
 }  // namespace spherematch

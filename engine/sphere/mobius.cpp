@@ -16,14 +16,20 @@ struct Moments {
   Eigen::Matrix3d derivative = Eigen::Matrix3d::Zero();  ///< of the centre by the boost
 };
 
-Moments measure(const Points& sphere, const Triangles& faces, const Eigen::VectorXd& face_mass) {
+/// Of masses at unit vectors, `point(i)` for each i.
+template <typename Point>
+Moments measure(const Eigen::VectorXd& mass, const Point& point) {
   Moments moments;
-  for (Eigen::Index f = 0; f < faces.rows(); ++f) {
-    const Eigen::Vector3d c = face_center(sphere, faces, f);
-    moments.center += face_mass[f] * c;
-    moments.derivative += 2 * face_mass[f] * (Eigen::Matrix3d::Identity() - c * c.transpose());
+  for (Eigen::Index i = 0; i < mass.size(); ++i) {
+    const Eigen::Vector3d c = point(i);
+    moments.center += mass[i] * c;
+    moments.derivative += 2 * mass[i] * (Eigen::Matrix3d::Identity() - c * c.transpose());
   }
   return moments;
+}
+
+Moments measure(const Points& sphere, const Triangles& faces, const Eigen::VectorXd& face_mass) {
+  return measure(face_mass, [&](Eigen::Index f) { return face_center(sphere, faces, f); });
 }
 
 /// The Newton step, shortened to stay inside the ball; zero at the solution.
@@ -45,6 +51,12 @@ void boost(Points& sphere, const Eigen::Vector3d& c) {
 
 double centering_step(Points& sphere, const Triangles& faces, const Eigen::VectorXd& face_mass) {
   const Moments moments = measure(sphere, faces, face_mass);
+  boost(sphere, newton_boost(moments));
+  return moments.center.norm();
+}
+
+double centering_step(Points& sphere, const Eigen::VectorXd& vertex_mass) {
+  const Moments moments = measure(vertex_mass, [&](Eigen::Index v) -> Eigen::Vector3d { return sphere.row(v); });
   boost(sphere, newton_boost(moments));
   return moments.center.norm();
 }

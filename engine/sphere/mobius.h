@@ -14,6 +14,9 @@ void boost(Points& sphere, const Eigen::Vector3d& c);
 /// Returns the distance of the centre of mass from the origin before the step.
 double centering_step(Points& sphere, const Triangles& faces, const Eigen::VectorXd& face_mass);
 
+/// The same with the mass at the vertices, (V, sum 1), which is faster.
+double centering_step(Points& sphere, const Eigen::VectorXd& vertex_mass);
+
 /// Repeats centering_step until the centre of mass is within 1e-10 of the origin, at most 100 times.
 /// Returns the distance that remains.
 double center(Points& sphere, const Triangles& faces, const Eigen::VectorXd& face_mass);

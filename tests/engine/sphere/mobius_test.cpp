@@ -114,6 +114,19 @@ TEST(Center, ConvergesAlmostQuadraticallyToTheOrigin) {
   EXPECT_LT((sphere - centred).norm(), 1e-12);
 }
 
+TEST(CenteringStep, OfMassAtVerticesConvergesToo) {
+  const TriMesh mesh = icosphere(3);
+  Eigen::VectorXd mass(mesh.vertex_count());
+  for (Eigen::Index v = 0; v < mass.size(); ++v) mass[v] = std::exp(1.5 * test::smooth_function(mesh.vertices.row(v).transpose()));
+  mass /= mass.sum();
+  Points sphere = mesh.vertices;
+  const double first = centering_step(sphere, mass);
+  EXPECT_NEAR(first, (mesh.vertices.transpose() * mass).norm(), 1e-15);
+  EXPECT_GT(first, 0.2);
+  for (int i = 0; i < 6; ++i) (void)centering_step(sphere, mass);
+  EXPECT_LT((sphere.transpose() * mass).norm(), 1e-14);
+}
+
 TEST(Center, StaysFiniteWhereNoCentreExists) {
   const TriMesh mesh = icosphere(2);
   Eigen::VectorXd mass = Eigen::VectorXd::Constant(mesh.face_count(), 0.2 / static_cast<double>(mesh.face_count() - 1));
