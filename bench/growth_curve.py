@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 
-WIDTH, HEIGHT = 1000, 440
+WIDTH, HEIGHT = 1020, 440
 PANEL_WIDTH, LEFT, TOP, BOTTOM = 330, 60, 44, 50
 PANEL_STEP = 500
 LINES = ("#3b82f6", "#d9730d", "#2f9e44", "#a855f7", "#e5484d", "#0d9488", "#b58900", "#d6409f")
