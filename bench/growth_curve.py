@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""growth_curve.py RESULTS.json PICTURE.svg [RESULTS.json...]: time against size, a line for each stage
+"""growth_curve.py RESULTS.json PICTURE.svg [RESULTS.json...]: time against size, a line for each stage, and the same as a table
 
-Draws what spherematch-bench --json wrote, with nothing but the standard library. Both axes are logarithmic; a straight line of slope one is
+Draws what spherematch-bench --json wrote and prints it in Markdown, with nothing but the standard library. Both axes are logarithmic; a straight line of slope one is
 time in proportion to size. Without a background of its own: every colour stands out from white and from black.
 """
 
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 
-WIDTH, HEIGHT = 1020, 440
+WIDTH, HEIGHT = 1040, 440
 PANEL_WIDTH, LEFT, TOP, BOTTOM = 330, 60, 44, 50
 PANEL_STEP = 500
 LINES = ("#3b82f6", "#d9730d", "#2f9e44", "#a855f7", "#e5484d", "#0d9488", "#b58900", "#d6409f")
@@ -132,12 +132,27 @@ def picture(files: list[Path]) -> str:
     return "\n".join([*parts, "</svg>", ""])
 
 
+def table(files: list[Path]) -> str:
+    """Seconds of each stage, a column for each size; the memory of the preparation below."""
+    results = [result for file in files for result in json.loads(file.read_text(encoding="utf-8"))["results"]]
+    results.sort(key=lambda result: result["vertices"])
+    rows = [["vertices", *(f"{result['vertices']:,}" for result in results)], ["---"] * (len(results) + 1)]
+    for part in ("preparation", "match"):
+        stages = dict.fromkeys(stage for result in results for stage, _ in result[part]["seconds"])
+        for stage in stages:
+            seconds = [dict(result[part]["seconds"]).get(stage) for result in results]
+            rows.append([f"{part}: {stage}", *("" if value is None else f"{value:.3f}" for value in seconds)])
+    rows.append(["preparation: memory in MiB", *(f"{result['preparation']['peak_mib']:.0f}" for result in results)])
+    return "\n".join("| " + " | ".join(row) + " |" for row in rows)
+
+
 def main() -> int:
     if len(sys.argv) < 3:
         print(__doc__, file=sys.stderr)
         return 2
     files = [Path(name) for name in (sys.argv[1], *sys.argv[3:])]
     Path(sys.argv[2]).write_text(picture(files), encoding="utf-8")
+    print(table(files))
     return 0
 
 

@@ -34,7 +34,9 @@ class Smoke(unittest.TestCase):
                 for stage in seconds:
                     self.assertRegex(table, rf"{result['vertices']}  {part}: {stage} ")
 
-        run(sys.executable, "-B", "bench/growth_curve.py", self.place / "bench.json", self.place / "growth.svg")
+        rows = run(sys.executable, "-B", "bench/growth_curve.py", self.place / "bench.json", self.place / "growth.svg").stdout.splitlines()
+        self.assertEqual(rows[0], "| vertices | 500 | 700 |")
+        self.assertRegex("\n".join(rows), r"\| match: total \| \d+\.\d{3} \| \d+\.\d{3} \|")
         picture = (self.place / "growth.svg").read_text()
         xml.etree.ElementTree.fromstring(picture)
         stages = [stage for result in file["results"] for stage in result["match"]["seconds"] if stage[1] > 0.001]
