@@ -116,10 +116,13 @@ bool MatchJobs::wait_for_line(std::string_view id, std::int32_t lines, Clock::ti
 
 bool MatchJobs::cancel(std::string_view id) {
   if (!store_.cancel(id)) return false;
+  ActivePointer job;
   {
     const std::lock_guard lock(mutex_);
-    std::erase_if(active_, [id](const ActivePointer& job) { return job->id == id; });
+    job = find_locked(id);
+    std::erase(active_, job);
   }
+  if (job) job->cancelled.request_stop();
   changed_.notify_all();
   log_info("match_job_cancelled", {{"job", id}});
   return true;
@@ -184,10 +187,10 @@ MatchJobs::Outcome MatchJobs::run(const Active& job, const JobPair& pair) {
   try {
     const MatchQuery query{pair.source, pair.target, job.options.parameters};
     await_shapes(shapes_, query, std::chrono::milliseconds(0));
-    (void)matches_.get(query, MatchService::Cache::use, MatchService::Urgency::background);
+    (void)matches_.get(query, MatchService::Cache::use, MatchService::Urgency::background, job.cancelled.get_token());
   } catch (...) {
     const api::Problem problem = problem_of(std::current_exception()).problem();
-    // The server stops: the pair stays open in the store.
+    // The server stops, and the pair stays open in the store; or the job was cancelled.
     if (problem.code == api::Code::draining || problem.code == api::Code::cancelled) return Outcome::stopped;
     if (passes(problem.code)) return Outcome::later;
     store_.finish_pair(job.id, pair.position, api::entry_of(problem.code).wire, problem.detail);

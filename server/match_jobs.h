@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -57,7 +58,7 @@ class MatchJobs {
   /// Waits until more than `lines` pairs are finished or the job is no longer active; false when neither happened in time.
   bool wait_for_line(std::string_view id, std::int32_t lines, Clock::time_point deadline) const;
 
-  /// The pair under way is finished and kept. False when the job is not active.
+  /// The pairs under way are given up, but where somebody else waits for the same match. False when the job is not active.
   bool cancel(std::string_view id);
 
   /// The result of a finished pair. One that has left the cache meanwhile is computed again.
@@ -77,6 +78,7 @@ class MatchJobs {
   struct Active {
     std::string id;
     MatchJobOptions options;
+    std::stop_source cancelled;
     std::deque<JobPair> open;  ///< not started
     std::int32_t running = 0;
     std::int32_t finished = 0;

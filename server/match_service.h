@@ -12,6 +12,7 @@
 
 #include "engine/data/correspondence.h"
 #include "engine/data/parameters.h"
+#include "server/deferred_saves.h"
 #include "server/engine_port.h"
 #include "server/gate.h"
 #include "server/lru_cache.h"
@@ -19,8 +20,6 @@
 #include "storage/match_store.h"
 
 namespace spherematch {
-
-using MatchPointer = std::shared_ptr<const MatchResult>;
 
 /// Everything that determines a result.
 struct MatchQuery {
@@ -58,9 +57,12 @@ class MatchService {
   enum class Cache { use, bypass };                ///< bypass: computed afresh and not kept
   enum class Urgency { interactive, background };  ///< background: only when nobody else waits, but without a bound on the waiting
 
-  /// The result for two shapes that are ready. Concurrent calls for the same query compute once.
+  /// The result for two shapes that are ready. Concurrent calls for the same query compute once. A computation ends early when `given_up`
+  /// is requested, unless others wait for it. What an interactive call computed is stored after it returns: a server that is killed in
+  /// between computes it again.
   /// @throws ProblemError(not_found, shape_failed, shape_not_ready, overloaded, draining), EngineError(cancelled, invalid_parameter)
-  [[nodiscard]] MatchAnswer get(const MatchQuery& query, Cache cache = Cache::use, Urgency urgency = Urgency::interactive);
+  [[nodiscard]] MatchAnswer get(const MatchQuery& query, Cache cache = Cache::use, Urgency urgency = Urgency::interactive,
+                                const std::stop_token& given_up = {});
 
   /// What names a query in caches and entity tags: the same text for the same result, for one engine version.
   [[nodiscard]] std::string key_of(const MatchQuery& query) const;
@@ -78,15 +80,22 @@ class MatchService {
   struct Flight;
   using FlightPointer = std::shared_ptr<Flight>;
 
-  [[nodiscard]] MatchAnswer answer(const MatchQuery& query, Cache cache, Urgency urgency);
+  [[nodiscard]] MatchAnswer answer(const MatchQuery& query, Cache cache, Urgency urgency, const std::stop_token& given_up);
   [[nodiscard]] MatchAnswer find(const std::string& key);
-  [[nodiscard]] MatchAnswer compute_or_join(const std::string& key, const MatchQuery& query, Urgency urgency);
+  [[nodiscard]] MatchAnswer compute_or_join(const std::string& key, const MatchQuery& query, Urgency urgency,
+                                            const std::stop_token& given_up);
   /// The flight of the key; `mine` is set where there was none before.
   [[nodiscard]] FlightPointer board(const std::string& key, bool& mine);
   [[nodiscard]] MatchAnswer join(const FlightPointer& flight);
-  [[nodiscard]] MatchAnswer lead(const FlightPointer& flight, const std::string& key, const MatchQuery& query, Gate::Permit* permit);
-  [[nodiscard]] MatchPointer compute(const MatchQuery& query);
-  void keep(const std::string& key, const MatchQuery& query, const MatchPointer& result);
+  [[nodiscard]] MatchAnswer lead(const FlightPointer& flight, const std::string& key, const MatchQuery& query, Gate::Permit* permit,
+                                 const std::stop_token& given_up);
+  /// Ends the flight early, unless somebody joined it. Who comes later takes another.
+  void abandon(const FlightPointer& flight, const std::string& key);
+  void remove_locked(const FlightPointer& flight, const std::string& key);
+  [[nodiscard]] MatchPointer compute(const MatchQuery& query, std::stop_source& stop);
+  /// In the background the result is in the store when this returns; else soon, and at the latest when this service ends.
+  void keep(const std::string& key, const MatchQuery& query, const MatchPointer& result, Urgency urgency);
+  void save(const std::string& key, const MatchQuery& query, const MatchResult& result);
 
   ShapeService& shapes_;
   MatchStore& store_;
@@ -99,6 +108,7 @@ class MatchService {
   std::condition_variable landed_;
   std::unordered_map<std::string, FlightPointer> flights_;
   std::size_t joined_ = 0;
+  DeferredSaves saves_;  ///< last, so that what it saves is still there
 };
 
 }  // namespace spherematch

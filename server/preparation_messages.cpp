@@ -6,6 +6,7 @@
 #include <array>
 #include <cerrno>
 
+#include "storage/blob_frame.h"
 #include "storage/byte_stream.h"
 
 namespace spherematch {
@@ -51,7 +52,9 @@ std::optional<Message> receive_message(int socket) {
     throw StorageError(StorageErrorCode::corrupt_blob, "a message of no known kind");
   }
   Message message{static_cast<MessageKind>(kind), {}};
-  // Grown as it comes, so that a size written by a process gone wild allocates nothing.
+  // Address space for all of it, so that growing copies nothing; memory as it comes, so that a size written by a process gone wild takes
+  // none.
+  message.body.reserve(static_cast<std::size_t>(std::min<std::uint64_t>(size, max_blob_size)));
   while (message.body.size() < size) {
     const std::size_t begin = message.body.size();
     message.body.resize(begin + static_cast<std::size_t>(std::min<std::uint64_t>(piece_size, size - begin)));

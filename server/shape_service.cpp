@@ -180,13 +180,14 @@ bool ShapeService::is_ready(const std::string& id) {
   return false;
 }
 
-ShapePointer ShapeService::load(const std::string& id) {
+ShapePointer ShapeService::load(const std::string& id, PreparedParts parts) {
   const ShapeRecord record = record_of(id);
   if (record.state != ShapeState::ready || record.engine != engine_.version()) throw not_ready(id);
-  if (ShapePointer cached = cache_.find(id)) return cached;
+  const bool kept = parts == PreparedParts::without_eigenbasis;
+  if (ShapePointer cached = kept ? cache_.find(id) : nullptr) return cached;
   try {
-    ShapePointer shape = store_.load_prepared(id);
-    cache_.put(id, shape, memory_size(*shape));
+    ShapePointer shape = store_.load_prepared(id, parts);
+    if (kept) cache_.put(id, shape, memory_size(*shape));
     return shape;
   } catch (const StorageError& error) {
     if (error.code() != StorageErrorCode::corrupt_blob && error.code() != StorageErrorCode::unknown_version) throw;
@@ -254,9 +255,11 @@ void ShapeService::compute(const std::string& id, const Progress& progress) {
   const auto started = Clock::now();
   log_info("job_started", {{"shape", id}, {"vertices", record->vertices}});
   StageLog stages(id, progress);
-  const auto shape = std::make_shared<const PreprocessedShape>(engine_.preprocess(store_.load_surface(id), stages.progress()));
+  const auto shape = std::make_shared<PreprocessedShape>(engine_.preprocess(store_.load_surface(id), stages.progress()));
   progress.check();
   const bool saved = store_.save_prepared(id, *shape);
+  shape->eigenvalues.resize(0);
+  shape->eigenvectors.resize(0, 0);
   if (saved) cache_.put(id, shape, memory_size(*shape));
   for (const auto& [stage, seconds] : shape->seconds) {
     if (settings_.on_stage) settings_.on_stage(stage, seconds);

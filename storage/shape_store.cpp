@@ -31,6 +31,25 @@ auto load(SQLite::Database& database, Sequence shape, BlobKind kind, Decode deco
   return result;
 }
 
+ShapeRow prepared_row(SQLite::Database& database, std::string_view id) {
+  ShapeRow row = existing_row(database, id);
+  if (row.record.state != ShapeState::ready || !row.record.sphere) {
+    throw StorageError(StorageErrorCode::not_found, "shape \"" + row.record.id + "\" is not prepared");
+  }
+  return row;
+}
+
+void require_same_size(const ShapeRow& row, Eigen::Index expected, Eigen::Index found) {
+  if (expected == found) return;
+  throw StorageError(StorageErrorCode::corrupt_blob, "the parts of shape \"" + row.record.id + "\" differ in size");
+}
+
+StoredEigenbasis load_basis(SQLite::Database& database, const ShapeRow& row) {
+  StoredEigenbasis basis = load(database, row.sequence, BlobKind::eigenbasis, decode_eigenbasis);
+  require_same_size(row, basis.eigenvalues.size(), basis.eigenvectors.cols());
+  return basis;
+}
+
 bool requeue_where(ConnectionPool& pool, std::string_view id, const std::function<bool(const ShapeRecord&)>& wanted) {
   const auto wanted_row = [&](SQLite::Database& database) {
     auto row = find_row(database, id);
@@ -237,29 +256,30 @@ Surface ShapeStore::load_surface(std::string_view id) const {
   });
 }
 
-std::shared_ptr<const PreprocessedShape> ShapeStore::load_prepared(std::string_view id) const {
+std::shared_ptr<const PreprocessedShape> ShapeStore::load_prepared(std::string_view id, PreparedParts parts) const {
   return read(*pool_, [&](SQLite::Database& database) -> std::shared_ptr<const PreprocessedShape> {
-    ShapeRow row = existing_row(database, id);
-    if (row.record.state != ShapeState::ready || !row.record.sphere) {
-      throw StorageError(StorageErrorCode::not_found, "shape \"" + row.record.id + "\" is not prepared");
-    }
+    ShapeRow row = prepared_row(database, id);
     auto shape = std::make_shared<PreprocessedShape>();
     shape->surface = load(database, row.sequence, BlobKind::surface, decode_surface);
     shape->sphere = load(database, row.sequence, BlobKind::sphere, decode_sphere);
     shape->signals = load(database, row.sequence, BlobKind::signals, decode_signals);
-    StoredEigenbasis basis = load(database, row.sequence, BlobKind::eigenbasis, decode_eigenbasis);
     const Eigen::Index vertices = shape->surface.working_mesh().vertex_count();
-    if (shape->sphere.rows() != vertices || basis.eigenvectors.rows() != vertices ||
-        basis.eigenvectors.cols() != basis.eigenvalues.size()) {
-      throw StorageError(StorageErrorCode::corrupt_blob, "the parts of shape \"" + row.record.id + "\" differ in size");
+    require_same_size(row, vertices, shape->sphere.rows());
+    if (parts == PreparedParts::all) {
+      StoredEigenbasis basis = load_basis(database, row);
+      require_same_size(row, vertices, basis.eigenvectors.rows());
+      shape->eigenvalues = std::move(basis.eigenvalues);
+      shape->eigenvectors = std::move(basis.eigenvectors);
     }
-    shape->eigenvalues = std::move(basis.eigenvalues);
-    shape->eigenvectors = std::move(basis.eigenvectors);
     shape->sphere_quality = *row.record.sphere;
     shape->seconds = std::move(row.record.seconds);
     shape->engine = std::move(row.record.engine);
     return shape;
   });
+}
+
+StoredEigenbasis ShapeStore::load_eigenbasis(std::string_view id) const {
+  return read(*pool_, [&](SQLite::Database& database) { return load_basis(database, prepared_row(database, id)); });
 }
 
 }  // namespace spherematch

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "engine/data/preprocessed_shape.h"
+#include "storage/blob_codec.h"
 #include "storage/content_id.h"
 #include "storage/error.h"
 
@@ -86,6 +87,9 @@ struct ShapePage {
   std::optional<std::string> next_cursor;  ///< engaged when older shapes remain
 };
 
+/// What is read of a prepared shape. Each part is stored and checked by itself; the eigenbasis takes nine tenths of the bytes.
+enum class PreparedParts { all, without_eigenbasis };
+
 class ShapeStore {
  public:
   /// Opens the file, creating it and its directory where missing, and migrates an older schema. A write waits for another
@@ -142,8 +146,11 @@ class ShapeStore {
   [[nodiscard]] std::vector<std::byte> load_upload(std::string_view id) const;
   /// @throws StorageError(not_found)
   [[nodiscard]] Surface load_surface(std::string_view id) const;
-  /// Bit for bit what save_prepared() got. @throws StorageError(not_found) also when the shape is not ready
-  [[nodiscard]] std::shared_ptr<const PreprocessedShape> load_prepared(std::string_view id) const;
+  /// Bit for bit what save_prepared() got, but for parts that are left out, which are then empty.
+  /// @throws StorageError(not_found) also when the shape is not ready
+  [[nodiscard]] std::shared_ptr<const PreprocessedShape> load_prepared(std::string_view id, PreparedParts parts = PreparedParts::all) const;
+  /// The part that load_prepared() can leave out. @throws StorageError(not_found) also when the shape is not ready
+  [[nodiscard]] StoredEigenbasis load_eigenbasis(std::string_view id) const;
 
   /// Makes a write that changes nothing and is on the disk when this returns: whether the store takes writes.
   void check_writable();

@@ -62,6 +62,15 @@ TEST_F(DamagedStore, NamesADamagedUploadAndSurface) {
   EXPECT_TRUE(store_.find(id()));
 }
 
+TEST_F(DamagedStore, ReadsTheOtherPartsBesideADamagedEigenbasis) {
+  change_blob(BlobKind::eigenbasis, "CAST(substr(data, 1, 30) || x'5a' || substr(data, 32) AS BLOB)");
+  EXPECT_EQ(error_of([&] { (void)store_.load_eigenbasis(id()); }), StorageErrorCode::corrupt_blob);
+  PreprocessedShape without = prepared_;
+  without.eigenvalues.resize(0);
+  without.eigenvectors.resize(0, 0);
+  testing::expect_same(*store_.load_prepared(id(), PreparedParts::without_eigenbasis), without);
+}
+
 TEST_F(DamagedStore, NamesPartsOfDifferentShapes) {
   const Surface larger = testing::sample_surface(20);
   const Blob sphere = encode_sphere(testing::sample_prepared(larger).sphere);

@@ -73,6 +73,23 @@ TEST_F(ShapeStoreTest, KeepsADecimatedCopy) {
   testing::expect_same(*store_.load_prepared(coarse.content.id), shape);
 }
 
+TEST_F(ShapeStoreTest, ReadsThePartsApart) {
+  const SampleUpload upload(1);
+  insert(store_, upload);
+  const std::string& id = upload.content.id;
+  EXPECT_EQ(error_of([&] { (void)store_.load_prepared(id, PreparedParts::without_eigenbasis); }), StorageErrorCode::not_found);
+  EXPECT_EQ(error_of([&] { (void)store_.load_eigenbasis(id); }), StorageErrorCode::not_found);
+
+  const PreprocessedShape shape = sample_prepared(upload.surface);
+  ASSERT_TRUE(store_.save_prepared(id, shape));
+  const StoredEigenbasis basis = store_.load_eigenbasis(id);
+  PreprocessedShape assembled = *store_.load_prepared(id, PreparedParts::without_eigenbasis);
+  EXPECT_EQ(assembled.eigenvalues.size() + assembled.eigenvectors.size(), 0);
+  assembled.eigenvalues = basis.eigenvalues;
+  assembled.eigenvectors = basis.eigenvectors;
+  testing::expect_same(assembled, shape);
+}
+
 TEST_F(ShapeStoreTest, KeepsAnyName) {
   using namespace std::string_literals;
   const std::string name = "'; DROP TABLE shapes; -- \0 \xff \xf0\x9f\x90\x88"s;
