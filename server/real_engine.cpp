@@ -30,7 +30,8 @@ std::shared_ptr<const MatchShape> RealEngine::match_shape(const ShapePointer& sh
   const std::string key = std::to_string(reinterpret_cast<std::uintptr_t>(shape.get()));
   if (auto known = match_shapes_.find(key)) return known;
   auto made = std::make_shared<const MatchShape>(shape);
-  match_shapes_.put(key, made, made->index_bytes());
+  // One that came with its eigenbasis is larger than what it adds, and nobody else keeps it.
+  if (shape->eigenvectors.size() == 0) match_shapes_.put(key, made, made->index_bytes());
   return made;
 }
 

@@ -81,7 +81,7 @@ HttpResponse get_hks(const ServerContext& context, const HttpRequest& request) {
   const std::string etag = weak_etag({"hks", request.id, context.engine.version(), chosen.format});
   return answer_unless_known(request, etag, [&] {
     context.shapes.require_ready(request.id, ShapeService::Clock::now() + wait);
-    const ShapePointer shape = context.shapes.load(request.id);
+    const ShapePointer shape = context.shapes.load(request.id, PreparedParts::all);
     return file_response(chosen.media_type, chosen.format == "npz" ? encode_hks_npz(*shape) : encode_hks_npy(*shape));
   });
 }
