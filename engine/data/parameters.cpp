@@ -54,6 +54,7 @@ PreprocessParameters PreprocessParameters::paper() {
   parameters.conformal_tolerance = 0;
   parameters.conformal_coarse_vertices = 0;
   parameters.collapse_passes = 0;
+  parameters.authalic_resolution = 256;
   parameters.authalic_steps = 100;
   parameters.authalic_step_size = 0.005;
   parameters.multilevel_eigenbasis = false;

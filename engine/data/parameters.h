@@ -29,7 +29,7 @@ struct PreprocessParameters {
   double collapse_threshold = 0.3;       ///< linear scale below which a region counts as collapsed
 
   // Authalic evolution (engine/sphere/authalic_evolution.h)
-  int authalic_resolution = 256;
+  int authalic_resolution = 160;
   int authalic_steps = 50;
   double authalic_step_size = 0.01;    ///< stable below 2 e tau
   double authalic_smoothing = 0.0025;  ///< tau: coefficient l is damped by exp(-tau l (l + 1))

@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "engine/mesh/laplacian.h"
+#include "engine/sphere/mobius.h"
 #include "engine/sphere/orientation.h"
 #include "tests/engine/sphere/spheres.h"
 #include "tests/support/meshes.h"
@@ -105,6 +108,53 @@ TEST(ConformalParametrization, OfANeedleHasNoFlippedFace) {
       ADD_FAILURE() << "level " << level << ", length " << length << ": " << error.what();
     }
   }
+}
+
+/// Root of the mean square distance after both are centred and turned into the frame of their mass: what is left beside a Moebius map.
+double apart(const TriMesh& mesh, Points a, Points b) {
+  Eigen::VectorXd mass = face_areas(mesh.vertices, mesh.faces);
+  mass /= mass.sum();
+  for (Points* sphere : {&a, &b}) {
+    (void)center(*sphere, mesh.faces, mass);
+    rotate_to_principal_axes(*sphere, mesh.faces, mass);
+  }
+  return std::sqrt((a - b).rowwise().squaredNorm().mean());
+}
+
+PreprocessParameters slow_path() {
+  PreprocessParameters parameters;
+  parameters.conformal_tolerance = 0;
+  parameters.conformal_coarse_vertices = 0;
+  return parameters;
+}
+
+TEST(ConformalParametrization, EndsEarlyNearWhereAllStepsLead) {
+  const TriMesh mesh = test::creature(4);
+  const Points early = conformal_parametrization(mesh, {}, {}), all = conformal_parametrization(mesh, slow_path(), {});
+  expect_parametrization(mesh, early);
+  EXPECT_NEAR(angle_distortion(mesh, early), angle_distortion(mesh, all), 0.02 * angle_distortion(mesh, all));
+  // Measured: 0.0033, where edges are about 0.07 long.
+  EXPECT_LT(apart(mesh, early, all), 0.007);
+  std::vector<double> fractions;
+  (void)conformal_parametrization(mesh, {}, {}, [&](double fraction) { fractions.push_back(fraction); });
+  EXPECT_LT(fractions.size(), 60U);  // of 130 steps
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+}
+
+TEST(ConformalParametrization, FromCoarseToFineIsThatOfTheSurfaceItself) {
+  const TriMesh mesh = test::creature(4);  // 2562 vertices
+  PreprocessParameters parameters;
+  parameters.conformal_coarse_vertices = 800;
+  std::vector<double> fractions;
+  const Points quick = conformal_parametrization(mesh, parameters, {}, [&](double fraction) { fractions.push_back(fraction); });
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_LE(fractions.back(), 1);
+  expect_parametrization(mesh, quick);
+  EXPECT_TRUE(quick == conformal_parametrization(mesh, parameters, {})) << "not deterministic";
+  const Points full = conformal_parametrization(mesh, slow_path(), {});
+  EXPECT_NEAR(angle_distortion(mesh, quick), angle_distortion(mesh, full), 0.05 * angle_distortion(mesh, full));
+  // Measured: 0.0086; on 10,242 vertices by way of 2000, 0.0057.
+  EXPECT_LT(apart(mesh, quick, full), 0.017);
 }
 
 TEST(ConformalParametrization, StopsWhenAsked) {
