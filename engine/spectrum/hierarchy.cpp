@@ -79,7 +79,7 @@ class Column {
 
 }  // namespace
 
-Laplacian galerkin_product(const Laplacian& laplacian, const Interpolation& interpolation) {
+Laplacian galerkin_product(const Laplacian& laplacian, const Interpolation& interpolation, const Progress& progress) {
   const Rows rows = rows_of(laplacian);
   const SparseMatrix by_column = interpolation;
   const Eigen::Index size = interpolation.cols();
@@ -89,6 +89,7 @@ Laplacian galerkin_product(const Laplacian& laplacian, const Interpolation& inte
   std::vector<double> stiffness, mass;
   Column column(size);
   for (std::int32_t c = 0; c < size; ++c) {
+    if (c % 8192 == 0) progress.check();
     for (SparseMatrix::InnerIterator fine(by_column, c); fine; ++fine)
       for (std::int64_t k = rows.start[at(fine.row())]; k < rows.start[at(fine.row()) + 1]; ++k) {
         const Entry& e = rows.entries[at(k)];
@@ -124,7 +125,7 @@ std::vector<CoarseLevel> coarse_levels(const TriMesh& mesh, const Laplacian& lap
     std::optional<CoarseMesh> coarse = coarsen(*finer, vertices, progress);
     if (!coarse) return levels;
     Interpolation prolong = interpolation(*coarse);
-    levels.push_back({galerkin_product(levels.empty() ? laplacian : levels.back().laplacian, prolong), std::move(prolong)});
+    levels.push_back({galerkin_product(levels.empty() ? laplacian : levels.back().laplacian, prolong, progress), std::move(prolong)});
     progress.check();
     current = std::move(coarse->mesh);
     finer = &current;

@@ -26,6 +26,7 @@ struct CoarseLevel {
                                                      const Progress& progress);
 
 /// P^T S P and P^T M P, lower triangles of one pattern, of matrices that are so too.
-[[nodiscard]] Laplacian galerkin_product(const Laplacian& laplacian, const Interpolation& interpolation);
+/// @throws EngineError(cancelled)
+[[nodiscard]] Laplacian galerkin_product(const Laplacian& laplacian, const Interpolation& interpolation, const Progress& progress);
 
 }  // namespace spherematch
