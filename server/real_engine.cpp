@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <future>
 
-#include "engine/engine.h"
 #include "engine/io/mesh_reader.h"
 #include "server/preparation_process.h"
 #include "server/priority.h"

@@ -1,7 +1,7 @@
 // The engine itself, with a fixed number of threads; preparations run in processes of their own.
 #pragma once
 
-#include "engine/register/match_shape.h"
+#include "engine/engine.h"
 #include "server/engine_port.h"
 #include "server/lru_cache.h"
 

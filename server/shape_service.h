@@ -66,7 +66,8 @@ class ShapeService {
   /// Waits until the shape is ready for this engine, queueing its preparation where needed.
   /// @throws ProblemError(not_found, shape_failed, shape_not_ready, overloaded, draining)
   void require_ready(const std::string& id, Clock::time_point deadline);
-  /// The decoded shape. What matches read of it stays in memory, the eigenbasis does not. @throws ProblemError(shape_not_ready) when it is not ready (any more)
+  /// The decoded shape. What matches read of it stays in memory, the eigenbasis does not.
+  /// @throws ProblemError(shape_not_ready) when it is not ready (any more)
   [[nodiscard]] ShapePointer load(const std::string& id, PreparedParts parts = PreparedParts::without_eigenbasis);
   struct StoredUpload {
     std::vector<std::byte> bytes;

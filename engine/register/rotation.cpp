@@ -28,11 +28,6 @@ Signal normalized(const Harmonics& coefficients, int degree) {
 struct CorrelationGrid {
   int n;
   std::vector<double> values;  ///< [beta][alpha][gamma]
-  [[nodiscard]] double at(int beta, int alpha, int gamma) const {
-    return values[(static_cast<std::size_t>(beta) * static_cast<std::size_t>(n) + static_cast<std::size_t>((alpha + n) % n)) *
-                      static_cast<std::size_t>(n) +
-                  static_cast<std::size_t>((gamma + n) % n)];
-  }
 };
 
 CorrelationGrid correlate(const std::vector<Signal>& source, const std::vector<Signal>& target, int degree) {
@@ -65,26 +60,29 @@ Eigen::Matrix3d euler_rotation(double alpha, double beta, double gamma) {
       .toRotationMatrix();
 }
 
-/// Voxels that no neighbour exceeds, best first.
-std::vector<RotationCandidate> grid_maxima(const CorrelationGrid& grid) {
-  std::vector<RotationCandidate> maxima;
-  const auto is_maximum = [&](int b, int a, int g, double value) {
-    for (int db = -1; db <= 1; ++db) {
-      if (b + db < 0 || b + db >= grid.n) continue;
-      for (int da = -1; da <= 1; ++da)
-        for (int dg = -1; dg <= 1; ++dg)
-          if (grid.at(b + db, a + da, g + dg) > value) return false;
-    }
-    return true;
-  };
-  for (int b = 0; b < grid.n; ++b)
-    for (int a = 0; a < grid.n; ++a)
-      for (int g = 0; g < grid.n; ++g) {
-        const double value = grid.at(b, a, g), step = 2 * std::numbers::pi / grid.n;
-        if (is_maximum(b, a, g, value)) maxima.push_back({euler_rotation(a * step, (b + 0.5) * step / 2, g * step), value});
-      }
-  std::stable_sort(maxima.begin(), maxima.end(), [](const auto& x, const auto& y) { return x.correlation > y.correlation; });
-  return maxima;
+/// The best voxels, by falling correlation, none near a better one and none below `least` times the best. Not the grid's own maxima: on
+/// a body nearly of revolution a peak is a low rise on a sharp ridge, which shows between the samples only.
+std::vector<RotationCandidate> seeds(const CorrelationGrid& grid, double least) {
+  constexpr std::size_t kMost = 64;
+  constexpr double kApart = 0.3;  // squared Frobenius distance: 0.4 radians
+  const double bound = least * *std::max_element(grid.values.begin(), grid.values.end());
+  std::vector<std::size_t> voxels;
+  for (std::size_t i = 0; i < grid.values.size(); ++i)
+    if (grid.values[i] >= bound) voxels.push_back(i);
+  std::stable_sort(voxels.begin(), voxels.end(), [&grid](std::size_t i, std::size_t j) { return grid.values[i] > grid.values[j]; });
+
+  std::vector<RotationCandidate> result;
+  const auto n = static_cast<std::size_t>(grid.n);
+  const double step = 2 * std::numbers::pi / grid.n;
+  for (const std::size_t i : voxels) {
+    const auto beta = static_cast<double>(i / (n * n)), alpha = static_cast<double>(i / n % n), gamma = static_cast<double>(i % n);
+    const Eigen::Matrix3d rotation = euler_rotation(alpha * step, (beta + 0.5) * step / 2, gamma * step);
+    const bool apart = std::all_of(result.begin(), result.end(),
+                                   [&](const RotationCandidate& better) { return (better.rotation - rotation).squaredNorm() > kApart; });
+    if (apart) result.push_back({rotation, grid.values[i]});
+    if (result.size() == kMost) break;
+  }
+  return result;
 }
 
 /// J a for the angular momentum operators J_x, J_y, J_z on one degree.
@@ -103,8 +101,11 @@ DegreeVector momentum(int axis, const DegreeVector& a) {
   return result;
 }
 
-/// Newton's method for the maximum of the correlation, in the rotation vector to the left of the current rotation.
-void refine(RotationCandidate& candidate, const std::vector<Signal>& source, const std::vector<Signal>& target) {
+/// Newton's method for the maximum of the correlation, in the rotation vector to the left of the current rotation. False where it comes
+/// to one of the maxima that are known.
+bool refine(RotationCandidate& candidate, const std::vector<Signal>& source, const std::vector<Signal>& target,
+            const std::vector<RotationCandidate>& known) {
+  constexpr double kThere = 0.02;  // squared Frobenius distance: 0.1 radians, the longest step
   for (int iteration = 0; iteration < 20; ++iteration) {
     double value = 0;
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
@@ -133,7 +134,10 @@ void refine(RotationCandidate& candidate, const std::vector<Signal>& source, con
     if (length < 1e-12) break;
     if (length > 0.1) step *= 0.1 / length;
     candidate.rotation = Eigen::AngleAxisd(step.norm(), step.normalized()).toRotationMatrix() * candidate.rotation;
+    const auto is_here = [&](const RotationCandidate& maximum) { return (maximum.rotation - candidate.rotation).squaredNorm() < kThere; };
+    if (std::any_of(known.begin(), known.end(), is_here)) return false;
   }
+  return true;
 }
 
 }  // namespace
@@ -145,13 +149,10 @@ std::vector<RotationCandidate> align_rotations(const std::vector<Harmonics>& sou
   for (const Harmonics& h : target) g.push_back(normalized(h, degree));
   const double channels = static_cast<double>(source.size());
 
+  // A seed's value is below that of the peak which it leads to, but not by much.
   std::vector<RotationCandidate> refined;
-  for (RotationCandidate& maximum : grid_maxima(correlate(f, g, degree))) {
-    const bool hopeless = !refined.empty() && maximum.correlation < (1 - 2 * parameters.candidate_threshold) * refined.front().correlation;
-    if (hopeless || refined.size() >= 64) break;  // refinement gains little over the grid's value
-    refine(maximum, f, g);
-    refined.push_back(maximum);
-  }
+  for (RotationCandidate& seed : seeds(correlate(f, g, degree), 1 - 2 * parameters.candidate_threshold))
+    if (refine(seed, f, g, refined)) refined.push_back(seed);
   std::stable_sort(refined.begin(), refined.end(), [](const auto& a, const auto& b) { return a.correlation > b.correlation; });
 
   std::vector<RotationCandidate> kept;

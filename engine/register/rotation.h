@@ -14,7 +14,7 @@ struct RotationCandidate {
   double correlation;        ///< normalised: 1 for equal signals
 };
 
-/// The local maxima of the correlation <f(R^-1 .), g> over all rotations, by falling correlation, each refined by Newton's method
+/// Local maxima of the correlation <f(R^-1 .), g> over all rotations, by falling correlation, each refined by Newton's method
 /// on the exact trigonometric sum; kept when separated from every better one and close enough to the best
 /// (candidate_separation, candidate_threshold, max_candidates). `source` and `target` hold one or more signals each, of the
 /// given degree; every signal counts alike and its mean does not count. At least one candidate is returned.

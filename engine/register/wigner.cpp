@@ -2,26 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace spherematch {
 namespace {
 
-/// d^j_{jn}, the row that starts every recurrence; logarithms keep the binomials in range.
-double top_row(int j, int n, double log_cosine, double log_sine) {
-  const double log_binomial = std::lgamma(2 * j + 1) - std::lgamma(j + n + 1) - std::lgamma(j - n + 1);
-  const double magnitude = std::exp(0.5 * log_binomial + (j + n) * log_cosine + (j - n) * log_sine);
-  return (j - n) % 2 == 0 ? magnitude : -magnitude;
-}
-
-/// d^l_{mn} at l = max(|m|, |n|), by the symmetries d_{mn} = (-1)^{m-n} d_{nm} = d_{-n,-m}.
-double first_of_recurrence(int m, int n, double log_cosine, double log_sine) {
-  const int l = std::max(std::abs(m), std::abs(n));
-  const double sign = (m - n) % 2 == 0 ? 1 : -1;
-  if (m == l) return top_row(l, n, log_cosine, log_sine);
-  if (m == -l) return sign * top_row(l, -n, log_cosine, log_sine);
-  if (n == l) return sign * top_row(l, m, log_cosine, log_sine);
-  return top_row(l, -m, log_cosine, log_sine);
+/// log(k!) for k up to `most`.
+std::vector<double> log_factorials(int most) {
+  std::vector<double> result{0};
+  for (int k = 1; k <= most; ++k) result.push_back(result.back() + std::log(static_cast<double>(k)));
+  return result;
 }
 
 }  // namespace
@@ -31,11 +20,19 @@ std::vector<Eigen::MatrixXd> wigner_d(int degree, double beta) {
   for (int l = 0; l <= degree; ++l) d.emplace_back(2 * l + 1, 2 * l + 1);
   const double log_cosine = std::log(std::max(std::cos(beta / 2), 1e-300)), log_sine = std::log(std::max(std::sin(beta / 2), 1e-300));
   const double cosine = std::cos(beta);
-  for (int m = -degree; m <= degree; ++m)
-    for (int n = -degree; n <= degree; ++n) {
-      double previous = 0, current = first_of_recurrence(m, n, log_cosine, log_sine);
-      for (int l = std::max(std::abs(m), std::abs(n)); l <= degree; ++l) {
-        d[static_cast<std::size_t>(l)](m + l, n + l) = current;
+  const std::vector<double> log_factorial = log_factorials(2 * degree);
+  const auto factorial = [&log_factorial](int k) { return log_factorial[static_cast<std::size_t>(k)]; };
+  // One quarter of the entries, m >= |n|; the others by d_{nm} = d_{-m,-n} = (-1)^{m-n} d_{mn} and d_{-n,-m} = d_{mn}.
+  for (int m = 0; m <= degree; ++m)
+    for (int n = -m; n <= m; ++n) {
+      const double sign = (m - n) % 2 == 0 ? 1 : -1;
+      // d^m_{mn} starts the recurrence; logarithms keep the binomials in range.
+      const double log_binomial = factorial(2 * m) - factorial(m + n) - factorial(m - n);
+      double previous = 0, current = sign * std::exp(0.5 * log_binomial + (m + n) * log_cosine + (m - n) * log_sine);
+      for (int l = m; l <= degree; ++l) {
+        Eigen::MatrixXd& matrix = d[static_cast<std::size_t>(l)];
+        matrix(l + m, l + n) = matrix(l - n, l - m) = current;
+        matrix(l + n, l + m) = matrix(l - m, l - n) = sign * current;
         const double up = l + 1.0, mm = m, nn = n, ll = l;
         const double scale = up * (2 * ll + 1) / std::sqrt((up * up - mm * mm) * (up * up - nn * nn));
         const double shift = l == 0 ? 0 : mm * nn / (ll * up);

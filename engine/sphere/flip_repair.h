@@ -20,7 +20,9 @@ class FlipRepair {
   /// Returns whether no face is flipped any more.
   [[nodiscard]] bool repair(Points& sphere) const;
 
-  [[nodiscard]] std::size_t bytes() const { return 4 * (static_cast<std::size_t>(faces_.size()) + rank_.size() + start_.size() + face_.size()); }
+  [[nodiscard]] std::size_t bytes() const {
+    return 4 * (static_cast<std::size_t>(faces_.size()) + rank_.size() + start_.size() + face_.size());
+  }
 
  private:
   /// Whether the face's height over its longest edge may be less than `thinness` times that edge; never false where it is, or where the

@@ -143,14 +143,27 @@ struct Log {
   }
 };
 
-TEST(Engine, MapsABodyToItsTurnedAndRenumberedCopy) {
+/// Without the shortcuts whose small errors depend on the numbering, which decides where they cut and in which order they add.
+PreprocessParameters exact(PreprocessParameters parameters) {
+  parameters.exact_rasterization = true;
+  parameters.multilevel_eigenbasis = false;
+  parameters.conformal_coarse_vertices = 0;
+  return parameters;
+}
+
+class EngineOnCopies : public ::testing::TestWithParam<bool> {};
+
+INSTANTIATE_TEST_SUITE_P(Parameters, EngineOnCopies, ::testing::Values(false, true),
+                         [](const auto& tested) { return tested.param ? "Exact" : "Default"; });
+
+TEST_P(EngineOnCopies, MapsABodyToItsTurnedAndRenumberedCopy) {
   const TriMesh body = test::creature(4);
   const auto order = test::shuffled(static_cast<std::int32_t>(body.vertex_count()), 1);
   const TriMesh copy = test::renumbered(test::transformed(body, 3, test::some_rotation(), {10, -4, 7}), order);
   std::vector<std::int32_t> place(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) place[static_cast<std::size_t>(order[i])] = static_cast<std::int32_t>(i);
 
-  const PreprocessParameters parameters;
+  const PreprocessParameters parameters = GetParam() ? exact({}) : PreprocessParameters{};
   Log preparing;
   const PreprocessedShape source = preprocess(surface_of(body), parameters, preparing.progress(), 2);
   preparing.expect_rising();
@@ -164,8 +177,8 @@ TEST(Engine, MapsABodyToItsTurnedAndRenumberedCopy) {
   ASSERT_EQ(result.map.vertex.size(), order.size());
   expect_valid_map(result, copy);
   const Eigen::VectorXd distances = errors(result, copy, [&](std::int32_t i) { return place[static_cast<std::size_t>(i)]; });
-  // Rounding alone: measured 1.0e-13 in the mean. Nothing may depend on how the mesh is turned and numbered.
-  EXPECT_LT(distances.mean(), 1e-12);
+  // Measured in the mean: 1e-13 by the exact stages, rounding alone, and 5.7e-5 by the others.
+  EXPECT_LT(distances.mean(), GetParam() ? 1e-12 : 1.2e-4);
   EXPECT_EQ(result.seconds.back().first, "total");
   for (const auto& [name, value] : result.quality)
     if (name.starts_with("flipped")) {
@@ -228,21 +241,22 @@ TEST(Engine, TheReverseMapIsTheInverse) {
   EXPECT_LT(mean, 0.0034);
 }
 
-TEST(Engine, PreprocessingDoesNotDependOnSizeAndPlace) {
+TEST_P(EngineOnCopies, PreprocessingDoesNotDependOnSizeAndPlace) {
   const TriMesh body = test::creature(3);
-  const PreprocessedShape one = preprocess(surface_of(body), quick());
+  const PreprocessParameters parameters = GetParam() ? exact(quick()) : quick();
+  const PreprocessedShape one = preprocess(surface_of(body), parameters);
   for (const double scale : {1e-6, 1e6}) {
     const PreprocessedShape other =
-        preprocess(surface_of(test::transformed(body, scale, Eigen::Matrix3d::Identity(), scale * Eigen::Vector3d(1, 2, 3))), quick());
-    // Measured: 5e-15, 5e-12.
+        preprocess(surface_of(test::transformed(body, scale, Eigen::Matrix3d::Identity(), scale * Eigen::Vector3d(1, 2, 3))), parameters);
+    // Measured: 5e-15; of eigenvalues up to 800, 5e-12 by the exact stages and 6e-4 by the others.
     EXPECT_LT((other.sphere - one.sphere).rowwise().norm().maxCoeff(), 1e-12);
-    EXPECT_LT((other.eigenvalues - one.eigenvalues).cwiseAbs().maxCoeff(), 1e-10);
+    EXPECT_LT((other.eigenvalues - one.eigenvalues).cwiseAbs().maxCoeff(), GetParam() ? 1e-10 : 2e-3);
   }
 }
 
 TEST(Engine, StopsWithinHalfASecond) {
   // At points spread over the stages. Measured: 0.08 s at most.
-  const Surface surface = surface_of(test::creature(5));
+  const Surface surface = surface_of(test::creature(7));
   for (const int milliseconds : {0, 300, 1000, 2000}) {
     std::stop_source source;
     std::chrono::steady_clock::time_point asked;

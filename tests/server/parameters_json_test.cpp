@@ -14,7 +14,7 @@ TEST(ParametersJson, EveryFieldOfAMatchShows) {
     return to_json(parameters).dump() != plain;
   };
   EXPECT_TRUE(changed(&MatchParameters::rotation_time, 0.5));
-  EXPECT_TRUE(changed(&MatchParameters::rotation_bandwidth, 16));
+  EXPECT_TRUE(changed(&MatchParameters::rotation_bandwidth, 32));
   EXPECT_TRUE(changed(&MatchParameters::max_candidates, 1));
   EXPECT_TRUE(changed(&MatchParameters::candidate_separation, 1.0));
   EXPECT_TRUE(changed(&MatchParameters::candidate_threshold, 0.2));

@@ -140,8 +140,7 @@ TEST_P(FlowTogether, DoesNotDependOnTheGridsPoles) {
   const Matrix3d turn = test::Random(5).rotation(), tilt = AngleAxisd(0.1, Vector3d(0.1, 0.6, -0.5).normalized()).toRotationMatrix();
   TriMesh turned = mesh;
   turned.vertices = test::rotated(mesh.vertices, turn).rowwise().normalized();
-  const std::vector<Function> f = signal(Matrix3d::Identity()),
-                              g = signal(tilt);
+  const std::vector<Function> f = signal(Matrix3d::Identity()), g = signal(tilt);
   const Pair straight = flow(mesh, f, g, three_levels()), crooked = flow(turned, signal(turn), signal(turn * tilt), three_levels());
   // Measured: 3.5e-5, of moves up to 0.05.
   EXPECT_GT(largest_move(straight.source, mesh.vertices), 0.04);
