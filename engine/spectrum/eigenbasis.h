@@ -55,7 +55,7 @@ struct FloatEigenbasis {
                                                                           Eigen::Index most_factorized = 150'000);
 
 /// The eigenbasis of a surface of unit area, by the solver that the parameters choose, in the numbering of `mesh`. Where levels
-/// do not work out, block Lanczos takes their place. `report` and `threads` as above.
+/// do not work out, block Lanczos takes their place. The first pair is exact: zero and a constant. `report` and `threads` as above.
 /// @throws EngineError(cancelled, parametrization_failed)
 [[nodiscard]] FloatEigenbasis surface_eigenbasis(const TriMesh& mesh, const PreprocessParameters& parameters, int threads,
                                                  const Progress& progress, const std::function<void(double)>& report = {});

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -22,6 +23,17 @@ FloatEigenbasis solve(const TriMesh& mesh, const Laplacian& laplacian, const Pre
   return {basis.values, basis.vectors.cast<float>()};
 }
 
+/// The first pair is known: zero, and a constant. On a round body other pairs add little to the signatures at large times, less than the
+/// rounding of a constant that is only nearly one.
+void set_constant_pair(FloatEigenbasis& basis, const SparseMatrix& mass) {
+  const Eigen::VectorXd weights = mass.selfadjointView<Eigen::Lower>() * Eigen::VectorXd::Ones(mass.rows());
+  const double total = weights.sum();
+  basis.values[0] = 0;
+  basis.vectors.col(0).setConstant(static_cast<float>(1 / std::sqrt(total)));
+  for (Eigen::Index k = 1; k < basis.vectors.cols(); ++k)
+    basis.vectors.col(k).array() -= static_cast<float>(weights.dot(basis.vectors.col(k).cast<double>()) / total);
+}
+
 /// Row order[i] of the result is row i of `vectors`. In pieces of a column, so that no more than one column is held twice.
 void restore_order(Eigen::MatrixXf& vectors, const std::vector<std::int32_t>& order) {
   Eigen::VectorXf column(vectors.rows());
@@ -43,6 +55,7 @@ FloatEigenbasis surface_eigenbasis(const TriMesh& mesh, const PreprocessParamete
   progress.check();
   const Laplacian laplacian = cotangent_laplacian(intrinsic, local.vertex_count());
   FloatEigenbasis basis = solve(local, laplacian, parameters, threads, progress, report);
+  set_constant_pair(basis, laplacian.mass);
   restore_order(basis.vectors, order);
   return basis;
 }
