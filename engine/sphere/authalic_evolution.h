@@ -10,8 +10,8 @@
 
 namespace spherematch {
 
-/// Advects the vertices along -grad log(area scale factor), the logarithm smoothed for time authalic_smoothing, and recentres
-/// after each step. No triangle of the result is flipped: each step is projected back by FlipRepair.
+/// Advects the vertices along -grad log(area scale factor), sampled or exactly rasterised and its logarithm smoothed for time
+/// authalic_smoothing, and recentres after each step. No triangle of the result is flipped: each step is projected back by FlipRepair.
 /// `report` is called with the fraction done.
 /// @throws EngineError(cancelled)
 void evolve_authalically(Points& sphere, const TriMesh& surface, const PreprocessParameters& parameters, const Progress& progress,

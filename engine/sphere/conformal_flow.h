@@ -11,7 +11,9 @@ namespace spherematch {
 
 /// Evolves the surface to a sphere: (M_t + d S_0) x_{t+1} = M_t x_t with the stiffness of the input frozen, scaled to unit area
 /// and centred after each step, then projected radially and freed of flipped triangles.
-/// Where that fails, fewer steps, more passes and the mere radial projection, which is not conformal, are tried in turn.
+/// A surface of clearly more than conformal_coarse_vertices flows as a copy of so many, and a few steps of its own follow. Where the
+/// result is not valid the flow of the surface itself, more passes, fewer steps and the mere radial projection, which is not conformal,
+/// are tried in turn.
 /// Where the map has collapsed a limb below collapse_threshold, collapse_passes extra passes open it up. `report` is called with the
 /// fraction done.
 /// @return (V, 3) unit vectors without a flipped triangle

@@ -317,6 +317,7 @@ TEST(PreprocessParameters, NameTheInvalidField) {
   for (const double size : {0.0, -1.0, nan, infinity}) {
     expect_invalid(with([&](auto& p) { p.conformal_step_size = size; }), "conformal_step_size");
     expect_invalid(with([&](auto& p) { p.authalic_step_size = size; }), "authalic_step_size");
+    if (size != 0) expect_invalid(with([&](auto& p) { p.conformal_tolerance = size; }), "conformal_tolerance");
     expect_invalid(with([&](auto& p) { p.authalic_smoothing = size; }), "authalic_smoothing");
     expect_invalid(with([&](auto& p) { p.hks_times = {1, size}; }), "hks_times");
   }
@@ -324,6 +325,9 @@ TEST(PreprocessParameters, NameTheInvalidField) {
     expect_invalid(with([&](auto& p) { p.authalic_resolution = resolution; }), "authalic_resolution");
     expect_invalid(with([&](auto& p) { p.signal_resolution = resolution; }), "signal_resolution");
   }
+  for (const int vertices : {-1, 99, 1'000'001})
+    expect_invalid(with([&](auto& p) { p.conformal_coarse_vertices = vertices; }), "conformal_coarse_vertices");
+  for (const int steps : {-1, 101}) expect_invalid(with([&](auto& p) { p.conformal_fine_steps = steps; }), "conformal_fine_steps");
   for (const int steps : {-1, 1001}) expect_invalid(with([&](auto& p) { p.authalic_steps = steps; }), "authalic_steps");
   for (const int pairs : {9, 501}) expect_invalid(with([&](auto& p) { p.eigenpairs = pairs; }), "eigenpairs");
   expect_invalid(with([&](auto& p) { p.hks_times.clear(); }), "hks_times");
