@@ -66,7 +66,7 @@ struct MatchParameters {
 
   // Rotational alignment (engine/register/rotation.h)
   double rotation_time = 1.0;  ///< heat kernel signature time of the rotation signal
-  int rotation_bandwidth = 16;
+  int rotation_bandwidth = 18;
   int max_candidates = 8;             ///< K
   double candidate_separation = 1.5;  ///< epsilon_1: squared Frobenius distance to a better candidate
   double candidate_threshold = 0.3;   ///< epsilon_2: fraction of the best correlation that may be missing

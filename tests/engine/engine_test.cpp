@@ -256,7 +256,7 @@ TEST_P(EngineOnCopies, PreprocessingDoesNotDependOnSizeAndPlace) {
 
 TEST(Engine, StopsWithinHalfASecond) {
   // At points spread over the stages. Measured: 0.08 s at most.
-  const Surface surface = surface_of(test::creature(7));
+  const Surface surface = surface_of(test::creature(6));
   for (const int milliseconds : {0, 300, 1000, 2000}) {
     std::stop_source source;
     std::chrono::steady_clock::time_point asked;

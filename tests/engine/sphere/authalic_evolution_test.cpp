@@ -89,18 +89,23 @@ TEST(AuthalicEvolution, BySamplesDecaysAModeAlmostAsFast) {
   EXPECT_NEAR((after_plus - after_minus) / (before_plus - before_minus), expected, 0.03);
 }
 
-TEST(AuthalicEvolution, BySamplesMakesAreasAsEqualAsByTheExactRasteriser) {
+class BySamples : public ::testing::TestWithParam<int> {};
+
+INSTANTIATE_TEST_SUITE_P(Grids, BySamples, ::testing::Values(256, PreprocessParameters{}.authalic_resolution));
+
+TEST_P(BySamples, AreasBecomeAsEqualAsByTheExactRasteriser) {
   for (const TriMesh& mesh : {test::creature(4), test::ellipsoid(5, {1, 1.5, 2.5})}) {
     const Points start = conformal_parametrization(mesh, {}, {});
     PreprocessParameters parameters;
+    parameters.authalic_resolution = GetParam();
     Points sampled = start, exact = start;
     evolve(sampled, mesh, parameters);
     parameters.exact_rasterization = true;
     evolve(exact, mesh, parameters);
     const SphereQuality a = measure_sphere(sampled, mesh), b = measure_sphere(exact, mesh);
     EXPECT_EQ(a.flipped, 0);
-    // Measured: 0.0452 and 0.0453, 5.1e-4 apart; 0.0227 and 0.0230, 5.7e-4 apart.
-    EXPECT_LT(a.area_distortion, 1.02 * b.area_distortion);
+    // Measured at 256: 0.0452 and 0.0453, 5.1e-4 apart; 0.0227 and 0.0230, 5.7e-4 apart. At 160: 0.0471 and 0.0459; 0.0236 and 0.0229.
+    EXPECT_LT(a.area_distortion, (GetParam() == 256 ? 1.02 : 1.05) * b.area_distortion);
     EXPECT_LT(std::sqrt((sampled - exact).rowwise().squaredNorm().mean()), 0.0012);
   }
 }
