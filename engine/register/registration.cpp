@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -30,13 +31,28 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// Names of the signals that rotations are aligned by: that of rotation_time and, but for the paper's method, that of half the time, where
+/// it is stored. On bodies that are nearly round the first alone says too little.
+std::vector<std::string> rotation_signals(const PreprocessedShape& shape, const MatchParameters& parameters) {
+  std::vector<std::string> names{hks_name(parameters.rotation_time)};
+  const std::string half = hks_name(parameters.rotation_time / 2);
+  const auto is_half = [&half](const SignalGrid& signal) { return signal.name == half; };
+  if (!parameters.paper_selection && std::any_of(shape.signals.begin(), shape.signals.end(), is_half)) names.push_back(half);
+  return names;
+}
+
 /// The best rotations of the stored signals and, where hints determine one, that of the hints, by falling correlation.
 std::vector<RotationCandidate> find_candidates(const MatchShape& source, const MatchShape& target, const HintDirections& hints,
                                                const MatchParameters& parameters) {
-  const Grid s = source.signal(hks_name(parameters.rotation_time)), t = target.signal(hks_name(parameters.rotation_time));
-  const int degree = std::min(parameters.rotation_bandwidth, static_cast<int>(std::min(s.rows(), t.rows())) / 2) - 1;
+  std::vector<Harmonics> f, g;
+  const auto resolution = [](const MatchShape& shape) { return shape.shape().signals.front().values.rows(); };
+  const Eigen::Index finest = std::min(resolution(source), resolution(target));
+  const int degree = std::min(parameters.rotation_bandwidth, static_cast<int>(finest) / 2) - 1;
   const auto harmonics = [degree](const Grid& grid) { return HarmonicTransform(static_cast<int>(grid.rows()), degree).analyze(grid); };
-  const std::vector<Harmonics> f{harmonics(s)}, g{harmonics(t)};
+  for (const std::string& name : rotation_signals(source.shape(), parameters)) {
+    f.push_back(harmonics(source.signal(name)));
+    g.push_back(harmonics(target.signal(name)));
+  }
   std::vector<RotationCandidate> candidates = align_rotations(f, g, degree, parameters);
   if (const auto hinted = rotation_from_hints(hints)) {
     const RotationCandidate extra{*hinted, rotation_correlation(f, g, degree, *hinted)};

@@ -64,7 +64,7 @@ Eigen::Matrix3d euler_rotation(double alpha, double beta, double gamma) {
 /// a body nearly of revolution a peak is a low rise on a sharp ridge, which shows between the samples only.
 std::vector<RotationCandidate> seeds(const CorrelationGrid& grid, double least) {
   constexpr std::size_t kMost = 64;
-  constexpr double kApart = 0.3;  // squared Frobenius distance: 0.4 radians
+  constexpr double kApart = 0.7;  // squared Frobenius distance: 0.6 radians
   const double bound = least * *std::max_element(grid.values.begin(), grid.values.end());
   std::vector<std::size_t> voxels;
   for (std::size_t i = 0; i < grid.values.size(); ++i)
@@ -110,8 +110,9 @@ bool refine(RotationCandidate& candidate, const std::vector<Signal>& source, con
     double value = 0;
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
     Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+    const CoefficientRotation rotate(static_cast<int>(source.front().size()) - 1, candidate.rotation);
     for (std::size_t c = 0; c < source.size(); ++c) {
-      const Signal rotated = rotate_coefficients(source[c], candidate.rotation);
+      const Signal rotated = rotate(source[c]);
       for (std::size_t l = 1; l < rotated.size(); ++l) {
         const DegreeVector& g = target[c][l];
         value += g.dot(rotated[l]).real();
@@ -173,7 +174,7 @@ double rotation_correlation(const std::vector<Harmonics>& source, const std::vec
                             const Eigen::Matrix3d& rotation) {
   double value = 0;
   for (std::size_t c = 0; c < source.size(); ++c) {
-    const Signal rotated = rotate_coefficients(normalized(source[c], degree), rotation), g = normalized(target[c], degree);
+    const Signal rotated = CoefficientRotation(degree, rotation)(normalized(source[c], degree)), g = normalized(target[c], degree);
     for (std::size_t l = 1; l < rotated.size(); ++l) value += g[l].dot(rotated[l]).real();
   }
   return value / static_cast<double>(source.size());

@@ -60,24 +60,26 @@ std::vector<DegreeVector> full_coefficients(int degree, const Harmonics& coeffic
   return result;
 }
 
-std::vector<DegreeVector> rotate_coefficients(const std::vector<DegreeVector>& coefficients, const Eigen::Matrix3d& rotation) {
+CoefficientRotation::CoefficientRotation(int degree, const Eigen::Matrix3d& rotation) {
   // R = Rz(alpha) Ry(beta) Rz(gamma)
   const double beta = std::atan2(std::hypot(rotation(0, 2), rotation(1, 2)), rotation(2, 2));
-  double alpha = 0, gamma = 0;
   if (std::sin(beta) > 1e-12) {
-    alpha = std::atan2(rotation(1, 2), rotation(0, 2));
-    gamma = std::atan2(rotation(2, 1), -rotation(2, 0));
+    alpha_ = std::atan2(rotation(1, 2), rotation(0, 2));
+    gamma_ = std::atan2(rotation(2, 1), -rotation(2, 0));
   } else {  // only alpha + gamma, or alpha - gamma at the other pole, matters
-    alpha = rotation(2, 2) > 0 ? std::atan2(rotation(1, 0), rotation(0, 0)) : std::atan2(-rotation(1, 0), -rotation(0, 0));
+    alpha_ = rotation(2, 2) > 0 ? std::atan2(rotation(1, 0), rotation(0, 0)) : std::atan2(-rotation(1, 0), -rotation(0, 0));
   }
+  d_ = wigner_d(degree, beta);
+}
+
+std::vector<DegreeVector> CoefficientRotation::operator()(const std::vector<DegreeVector>& coefficients) const {
   const int degree = static_cast<int>(coefficients.size()) - 1;
-  const std::vector<Eigen::MatrixXd> d = wigner_d(degree, beta);
   std::vector<DegreeVector> result;
   for (int l = 0; l <= degree; ++l) {
     DegreeVector a = coefficients[static_cast<std::size_t>(l)];
-    for (int n = -l; n <= l; ++n) a[n + l] *= std::polar(1.0, -n * gamma);
-    DegreeVector b = d[static_cast<std::size_t>(l)] * a;
-    for (int m = -l; m <= l; ++m) b[m + l] *= std::polar(1.0, -m * alpha);
+    for (int n = -l; n <= l; ++n) a[n + l] *= std::polar(1.0, -n * gamma_);
+    DegreeVector b = d_[static_cast<std::size_t>(l)] * a;
+    for (int m = -l; m <= l; ++m) b[m + l] *= std::polar(1.0, -m * alpha_);
     result.push_back(std::move(b));
   }
   return result;

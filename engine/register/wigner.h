@@ -18,7 +18,17 @@ using DegreeVector = Eigen::VectorXcd;
 /// All coefficients (l, m), m of both signs, of a real function; element l has 2l + 1 entries, m + l.
 [[nodiscard]] std::vector<DegreeVector> full_coefficients(int degree, const Harmonics& coefficients);
 
-/// Coefficients of x -> f(R^-1 x).
-[[nodiscard]] std::vector<DegreeVector> rotate_coefficients(const std::vector<DegreeVector>& coefficients, const Eigen::Matrix3d& rotation);
+/// One rotation R of any number of functions. Immutable.
+class CoefficientRotation {
+ public:
+  CoefficientRotation(int degree, const Eigen::Matrix3d& rotation);
+
+  /// Coefficients of x -> f(R^-1 x); f has the degree given above.
+  [[nodiscard]] std::vector<DegreeVector> operator()(const std::vector<DegreeVector>& coefficients) const;
+
+ private:
+  double alpha_ = 0, gamma_ = 0;
+  std::vector<Eigen::MatrixXd> d_;
+};
 
 }  // namespace spherematch

@@ -25,7 +25,7 @@ constexpr int degree = 15;
 
 /// Coefficients of x -> f(R^-1 x).
 Harmonics rotated(const Harmonics& f, const Matrix3d& rotation) {
-  const std::vector<DegreeVector> full = rotate_coefficients(full_coefficients(degree, f), rotation);
+  const std::vector<DegreeVector> full = CoefficientRotation(degree, rotation)(full_coefficients(degree, f));
   Harmonics result = Harmonics::Zero(f.size());
   for (int m = 0; m <= degree; ++m)
     for (int l = m; l <= degree; ++l) result[harmonic_index(degree, l, m)] = full[static_cast<std::size_t>(l)][l + m];

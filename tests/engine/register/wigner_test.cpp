@@ -80,7 +80,7 @@ TEST(RotateCoefficients, AgreesWithResamplingTheRotatedFunction) {
     const Eigen::Matrix3d back = rotation.transpose();
     const Grid resampled = test::sampled(resolution, [&](const Eigen::Vector3d& p) { return test::exact_sum(degree, f, back * p); });
     const std::vector<DegreeVector> exact = full_coefficients(degree, transform.analyze(resampled));
-    const std::vector<DegreeVector> rotated = rotate_coefficients(full_coefficients(degree, f), rotation);
+    const std::vector<DegreeVector> rotated = CoefficientRotation(degree, rotation)(full_coefficients(degree, f));
     for (std::size_t l = 0; l <= degree; ++l)
       // Measured: 4e-15.
       EXPECT_LT((rotated[l] - exact[l]).cwiseAbs().maxCoeff(), 5e-14) << "l " << l << "\n" << rotation;
@@ -88,14 +88,17 @@ TEST(RotateCoefficients, AgreesWithResamplingTheRotatedFunction) {
 }
 
 TEST(RotateCoefficients, ComposesAndKeepsNorms) {
+  const auto turned = [](const std::vector<DegreeVector>& coefficients, const Eigen::Matrix3d& rotation) {
+    return CoefficientRotation(static_cast<int>(coefficients.size()) - 1, rotation)(coefficients);
+  };
   constexpr int degree = 31;
   const std::vector<DegreeVector> f = full_coefficients(degree, random_harmonics(degree, 4));
   const std::vector<Eigen::Matrix3d> all = rotations();
   double worst = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Eigen::Matrix3d first = all[i], second = all[(7 * i + 3) % all.size()];
-    const std::vector<DegreeVector> twice = rotate_coefficients(rotate_coefficients(f, first), second);
-    const std::vector<DegreeVector> once = rotate_coefficients(f, second * first);
+    const std::vector<DegreeVector> twice = turned(turned(f, first), second);
+    const std::vector<DegreeVector> once = turned(f, second * first);
     for (std::size_t l = 0; l <= degree; ++l) {
       worst = std::max(worst, (twice[l] - once[l]).cwiseAbs().maxCoeff());
       EXPECT_NEAR(twice[l].norm(), f[l].norm(), 1e-13 * f[l].norm());
