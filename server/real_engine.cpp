@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <future>
 
+#include "engine/data/parallel.h"
 #include "engine/io/mesh_reader.h"
 #include "server/preparation_process.h"
 #include "server/priority.h"
@@ -40,7 +41,9 @@ MatchResult RealEngine::match(const ShapePointer& source, const ShapePointer& ta
   return std::async(std::launch::async,
                     [&] {
                       be_nice(match_niceness);
-                      return spherematch::match(*match_shape(source), *match_shape(target), parameters, progress, threads_);
+                      std::shared_ptr<const MatchShape> sides[2];
+                      run_parallel(2, threads_, [&](std::size_t side) { sides[side] = match_shape(side == 0 ? source : target); });
+                      return spherematch::match(*sides[0], *sides[1], parameters, progress, threads_);
                     })
       .get();
 }
