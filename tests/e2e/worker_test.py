@@ -8,7 +8,7 @@ import unittest
 
 import support
 
-SLOW = support.off(support.bumpy(5))
+SLOW = support.off(support.bumpy(6))
 MEDIUM = support.off(support.bumpy(4))
 
 
