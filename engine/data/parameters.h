@@ -65,7 +65,8 @@ struct MatchParameters {
   static constexpr std::size_t max_hints = 64;
 
   // Rotational alignment (engine/register/rotation.h)
-  double rotation_time = 1.0;  ///< heat kernel signature time of the rotation signal
+  /// Heat kernel signature time of the rotation signal; the signal at half of it counts as well, unless paper_selection is set.
+  double rotation_time = 1.0;
   int rotation_bandwidth = 18;
   int max_candidates = 8;             ///< K
   double candidate_separation = 1.5;  ///< epsilon_1: squared Frobenius distance to a better candidate

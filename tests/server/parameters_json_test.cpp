@@ -21,7 +21,11 @@ TEST(ParametersJson, EveryFieldOfAMatchShows) {
   EXPECT_TRUE(changed(&MatchParameters::flow_times, std::vector<double>{0.5}));
   EXPECT_TRUE(changed(&MatchParameters::flow_resolution, 8));
   EXPECT_TRUE(changed(&MatchParameters::flow_iterations, 1));
+  EXPECT_TRUE(changed(&MatchParameters::flow_settled, 0.1));
   EXPECT_TRUE(changed(&MatchParameters::flow_smoothness, 0.1));
+  EXPECT_TRUE(changed(&MatchParameters::finest_flow, 32));
+  EXPECT_TRUE(changed(&MatchParameters::flow_tolerance, 0.1));
+  EXPECT_TRUE(changed(&MatchParameters::mesh_flow, true));
   EXPECT_TRUE(changed(&MatchParameters::fine_candidates, 3));
   EXPECT_TRUE(changed(&MatchParameters::paper_selection, true));
   EXPECT_TRUE(changed(&MatchParameters::orientation, Orientation::reverse));
