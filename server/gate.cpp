@@ -11,7 +11,7 @@ Gate::Permit::~Permit() {
 Gate::Permit Gate::enter() {
   std::unique_lock lock(mutex_);
   if (!closed_ && inside_.size() == slots_) {
-    if (waiting_ == max_waiting_) throw ProblemError(api::Code::overloaded, "too many " + what_ + " at once; try again");
+    require_room_locked();
     ++waiting_;
     freed_.wait(lock, [this] { return closed_ || inside_.size() < slots_; });
     --waiting_;
@@ -20,6 +20,17 @@ Gate::Permit Gate::enter() {
   const auto now = Clock::now();
   inside_.insert(now);
   return {this, now};
+}
+
+void Gate::require_room() const {
+  const std::lock_guard lock(mutex_);
+  if (!closed_) require_room_locked();
+}
+
+void Gate::require_room_locked() const {
+  if (inside_.size() == slots_ && waiting_ == max_waiting_) {
+    throw ProblemError(api::Code::overloaded, "too many " + what_ + " at once; try again");
+  }
 }
 
 Gate::Permit Gate::enter_behind() {

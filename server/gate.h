@@ -38,6 +38,9 @@ class Gate {
   /// Waits for a slot. @throws ProblemError(overloaded) when too many wait already, ProblemError(draining) once closed
   [[nodiscard]] Permit enter();
 
+  /// @throws ProblemError(overloaded) when enter() would do so now
+  void require_room() const;
+
   /// Waits for a slot that nobody in enter() waits for, without a bound. @throws ProblemError(draining) once closed
   [[nodiscard]] Permit enter_behind();
 
@@ -53,6 +56,7 @@ class Gate {
 
  private:
   void leave(Clock::time_point entered);
+  void require_room_locked() const;
 
   const std::string what_;
   const std::size_t slots_;

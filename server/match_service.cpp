@@ -77,6 +77,20 @@ MatchAnswer MatchService::get(const MatchQuery& query, Cache cache, Urgency urge
   return found;
 }
 
+void MatchService::require_room(const MatchQuery& query, Cache cache) {
+  try {
+    gate_.require_room();
+  } catch (const ProblemError&) {
+    if (cache == Cache::bypass) throw;
+    const std::string key = key_of(query);
+    const auto under_way = [&] {
+      const std::lock_guard lock(mutex_);
+      return flights_.contains(key);
+    };
+    if (!under_way() && !find(key).result) throw;
+  }
+}
+
 MatchAnswer MatchService::answer(const MatchQuery& query, Cache cache, Urgency urgency, const std::stop_token& given_up) {
   if (cache == Cache::bypass) {
     const Gate::Permit permit = urgency == Urgency::interactive ? gate_.enter() : gate_.enter_behind();

@@ -64,6 +64,9 @@ class MatchService {
   [[nodiscard]] MatchAnswer get(const MatchQuery& query, Cache cache = Cache::use, Urgency urgency = Urgency::interactive,
                                 const std::stop_token& given_up = {});
 
+  /// Turns a request away before anything is read for it. @throws ProblemError(overloaded) when get() would have to compute and could not
+  void require_room(const MatchQuery& query, Cache cache);
+
   /// What names a query in caches and entity tags: the same text for the same result, for one engine version.
   [[nodiscard]] std::string key_of(const MatchQuery& query) const;
 

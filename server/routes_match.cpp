@@ -36,6 +36,8 @@ struct MatchRequest {
   MatchFields fields;
   std::chrono::milliseconds wait{};
   MatchService::Cache cache = MatchService::Cache::use;
+  bool ready = false;      ///< both shapes are
+  std::int32_t n_tgt = 0;  ///< vertices of the target
 };
 
 MatchRequest parse(const HttpRequest& from) {
@@ -59,7 +61,6 @@ MatchRequest parse(const HttpRequest& from) {
 
 /// What an answer needs besides the map, read before the match: a shape that is removed meanwhile then does not spoil the end.
 struct Ingredients {
-  std::int32_t n_tgt = 0;
   ShapePointer source;      ///< with the target, for formats that draw surfaces
   ShapePointer target;      ///<
   PolygonMesh source_mesh;  ///< for formats that repeat the upload
@@ -67,7 +68,6 @@ struct Ingredients {
 
 Ingredients gather(const ServerContext& context, const MatchRequest& request, const std::optional<MapFormat>& format) {
   Ingredients ingredients;
-  ingredients.n_tgt = context.shapes.get(request.query.tgt).vertices;
   if (format && needs_surfaces(*format)) {
     ingredients.source = context.shapes.load(request.query.src);
     ingredients.target = context.shapes.load(request.query.tgt);
@@ -80,7 +80,7 @@ std::string encode(const ServerContext& context, const MatchRequest& request, co
                    const MatchAnswer& answer, Ingredients ingredients) {
   const MatchResult& result = *answer.result;
   if (!format) {
-    const api::Match match = match_of(request.query, answer, request.fields, ingredients.n_tgt, context.engine.version());
+    const api::Match match = match_of(request.query, answer, request.fields, request.n_tgt, context.engine.version());
     return api::to_text(api::to_json(match)) + "\n";
   }
   if (*format == MapFormat::npz && request.query.parameters.both) return encode_npz(result.map, result.reverse);
@@ -90,7 +90,7 @@ std::string encode(const ServerContext& context, const MatchRequest& request, co
 }
 
 HttpResponse compute(const ServerContext& context, const MatchRequest& request) {
-  await_shapes(context.shapes, request.query, request.wait);
+  if (!request.ready) await_shapes(context.shapes, request.query, request.wait);
   const std::optional<MapFormat> format = map_format_of(request.representation->format);
   Ingredients ingredients = gather(context, request, format);
   const MatchAnswer answer = context.match_service.get(request.query, request.cache);
@@ -101,9 +101,12 @@ HttpResponse compute(const ServerContext& context, const MatchRequest& request) 
 }
 
 HttpResponse get_match(const ServerContext& context, const HttpRequest& from) {
-  const MatchRequest request = parse(from);
-  context.shapes.require_usable(request.query.src);
-  context.shapes.require_usable(request.query.tgt);
+  MatchRequest request = parse(from);
+  context.match_service.require_room(request.query, request.cache);
+  const auto src = context.shapes.require_usable(request.query.src);
+  const auto tgt = context.shapes.require_usable(request.query.tgt);
+  request.ready = src.ready && tgt.ready;
+  request.n_tgt = tgt.vertices;
   const std::string etag =
       weak_etag({"match", context.match_service.key_of(request.query), request.representation->format, canonical(request.fields)});
   return answer_unless_known(from, etag, [&] { return compute(context, request); });

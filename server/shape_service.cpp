@@ -155,9 +155,10 @@ void ShapeService::cancel_preparation(const std::string& id) {
   log_info("preparation_cancelled", {{"shape", id}});
 }
 
-void ShapeService::require_usable(const std::string& id) const {
+ShapeService::Usable ShapeService::require_usable(const std::string& id) const {
   const ShapeRecord record = record_of(id);
   if (record.state == ShapeState::failed) throw failed(record);
+  return {record.state == ShapeState::ready && record.engine == engine_.version(), record.vertices};
 }
 
 void ShapeService::require_ready(const std::string& id, Clock::time_point deadline) {

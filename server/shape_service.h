@@ -61,8 +61,12 @@ class ShapeService {
 
   /// @throws ProblemError(not_found)
   void require_known(const std::string& id) const;
+  struct Usable {
+    bool ready = false;         ///< for this engine, so that require_ready() would return at once
+    std::int32_t vertices = 0;  ///< of the upload
+  };
   /// @throws ProblemError(not_found), ProblemError(shape_failed)
-  void require_usable(const std::string& id) const;
+  Usable require_usable(const std::string& id) const;
   /// Waits until the shape is ready for this engine, queueing its preparation where needed.
   /// @throws ProblemError(not_found, shape_failed, shape_not_ready, overloaded, draining)
   void require_ready(const std::string& id, Clock::time_point deadline);

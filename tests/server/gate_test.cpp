@@ -67,8 +67,10 @@ TEST(Gate, TurnsAwayWhoFindsTheQueueFull) {
   std::jthread second([&] { const Gate::Permit permit = gate.enter(); });
   wait_until_waiting(gate, 1);
   EXPECT_EQ(code_of_refusal(gate), api::Code::overloaded);
+  EXPECT_THROW(gate.require_room(), ProblemError);
   first.reset();
   second.join();
+  EXPECT_NO_THROW(gate.require_room());
   EXPECT_NO_THROW((void)gate.enter());
 }
 

@@ -105,6 +105,28 @@ TEST_F(MatchServiceTest, BeyondItsBoundNobodyJoins) {
   engine.hold_matches = false;
 }
 
+TEST_F(MatchServiceTest, WhatNeedsNoComputationHasRoomWhereNothingElseHas) {
+  const MatchQuery known{src, tgt, {}};
+  const MatchQuery other{tgt, src, {}};
+  const MatchQuery under_way{src, src, {}};
+  using Cache = MatchService::Cache;
+  (void)get();
+  EXPECT_NO_THROW(match_service->require_room(other, Cache::bypass));
+
+  engine.hold_matches = true;
+  std::jthread first([&] { (void)match_service->get(under_way); });
+  while (engine.matches < 2) std::this_thread::yield();
+  EXPECT_NO_THROW(match_service->require_room(other, Cache::bypass)) << "one may wait";
+  std::jthread second([&] { (void)match_service->get(known, Cache::bypass); });
+  while (matches->counts().waiting < 1) std::this_thread::yield();
+
+  EXPECT_THROW(match_service->require_room(other, Cache::use), ProblemError);
+  EXPECT_THROW(match_service->require_room(known, Cache::bypass), ProblemError);
+  EXPECT_NO_THROW(match_service->require_room(known, Cache::use));
+  EXPECT_NO_THROW(match_service->require_room(under_way, Cache::use));
+  engine.hold_matches = false;
+}
+
 TEST_F(MatchServiceTest, BackgroundWorkLetsOthersPass) {
   engine.hold_matches = true;
   std::jthread first([this] { (void)get(); });
