@@ -106,7 +106,7 @@ std::vector<SignalGrid> signal_grids(const PreprocessedShape& shape, const Trian
 
 }  // namespace
 
-std::string_view engine_version() { return "3"; }
+std::string_view engine_version() { return "4"; }
 
 Surface read_surface(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options, const ReadLimits& limits) {
   options.validate();

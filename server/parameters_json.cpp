@@ -25,8 +25,9 @@ const char* name_of(Orientation orientation) {
 
 api::Json to_json(const PreprocessParameters& parameters) {
   const auto& [conformal_steps, conformal_step_size, conformal_tolerance, conformal_coarse_vertices, conformal_fine_steps, collapse_passes,
-               collapse_steps, collapse_threshold, authalic_resolution, authalic_steps, authalic_step_size, authalic_smoothing,
-               exact_rasterization, eigenpairs, multilevel_eigenbasis, single_vector_lanczos, hks_times, signal_resolution] = parameters;
+               collapse_steps, collapse_threshold, authalic_resolution, authalic_steps, authalic_step_size, authalic_longest_move,
+               authalic_smoothing, exact_rasterization, eigenpairs, multilevel_eigenbasis, single_vector_lanczos, hks_times,
+               signal_resolution] = parameters;
   return {{"conformal_steps", conformal_steps},
           {"conformal_step_size", conformal_step_size},
           {"conformal_tolerance", conformal_tolerance},
@@ -38,6 +39,7 @@ api::Json to_json(const PreprocessParameters& parameters) {
           {"authalic_resolution", authalic_resolution},
           {"authalic_steps", authalic_steps},
           {"authalic_step_size", authalic_step_size},
+          {"authalic_longest_move", authalic_longest_move},
           {"authalic_smoothing", authalic_smoothing},
           {"exact_rasterization", exact_rasterization},
           {"eigenpairs", eigenpairs},

@@ -41,6 +41,7 @@ void PreprocessParameters::validate() const {
           "must be even, 16 to 1024");
   require(authalic_steps >= 0 && authalic_steps <= 1000, "authalic_steps", "must be 0 to 1000");
   require(positive(authalic_step_size), "authalic_step_size", "must be positive");
+  require(positive(authalic_longest_move), "authalic_longest_move", "must be positive");
   require(positive(authalic_smoothing), "authalic_smoothing", "must be positive");
   require(eigenpairs >= 10 && eigenpairs <= 500, "eigenpairs", "must be 10 to 500");
   require(!hks_times.empty() && hks_times.size() <= 32, "hks_times", "must hold 1 to 32 times");
@@ -57,6 +58,7 @@ PreprocessParameters PreprocessParameters::paper() {
   parameters.authalic_resolution = 256;
   parameters.authalic_steps = 100;
   parameters.authalic_step_size = 0.005;
+  parameters.authalic_longest_move = 100;
   parameters.multilevel_eigenbasis = false;
   parameters.exact_rasterization = true;
   parameters.single_vector_lanczos = true;

@@ -30,10 +30,11 @@ struct PreprocessParameters {
 
   // Authalic evolution (engine/sphere/authalic_evolution.h)
   int authalic_resolution = 160;
-  int authalic_steps = 50;
-  double authalic_step_size = 0.01;    ///< stable below 2 e tau
-  double authalic_smoothing = 0.0025;  ///< tau: coefficient l is damped by exp(-tau l (l + 1))
-  bool exact_rasterization = false;    ///< the slower way to the area density, for comparison (engine/sphere/rasterizer.h)
+  int authalic_steps = 50;              ///< with their size the time of the evolution; shorter steps are more
+  double authalic_step_size = 0.01;     ///< stable below 2 e tau
+  double authalic_longest_move = 0.05;  ///< radians: steps that would move points further are shortened, by 20 at most
+  double authalic_smoothing = 0.0025;   ///< tau: coefficient l is damped by exp(-tau l (l + 1))
+  bool exact_rasterization = false;     ///< the slower way to the area density, for comparison (engine/sphere/rasterizer.h)
 
   // Eigenbasis and signals (engine/spectrum)
   int eigenpairs = 200;

@@ -17,11 +17,20 @@ namespace spherematch {
 namespace {
 
 constexpr int kCenteringSteps = 3;
+constexpr double kMostShortened = 20;
 
 /// The degree beyond which smoothing leaves less than 1e-6 of a coefficient.
 int smoothed_degree(double smoothing, int resolution) {
   const int degree = static_cast<int>(std::sqrt(std::log(1e6) / smoothing));
   return std::clamp(degree, 1, resolution / 2 - 1);
+}
+
+/// How long the evolution may follow the field before it must be made anew: further on than the field's features are wide, its paths
+/// would cross and fold the surface. That happens only in the beginning, where whole limbs unfold from a point.
+double step_size(const TangentGrid& field, const PreprocessParameters& parameters) {
+  const double fastest = std::sqrt((field.colatitude.square() + field.longitude.square()).maxCoeff());
+  const double size = parameters.authalic_step_size;
+  return size / std::clamp(size * fastest / parameters.authalic_longest_move, 1.0, kMostShortened);
 }
 
 /// The logarithm of the mass per solid angle that the faces carry, by samples or by the exact rasteriser.
@@ -71,15 +80,21 @@ void evolve_authalically(Points& original, const TriMesh& surface, const Preproc
   // Coarse limbs cannot follow the flow without flips, since their rings become polygons thinner than their own bend. So each
   // step is projected back to where nothing flips. Where that fails a later step mostly mends it; if not, the last good one counts.
   Points last_good = sphere;
-  for (int step = 0; step < parameters.authalic_steps; ++step) {
+  const double end = parameters.authalic_steps * parameters.authalic_step_size;
+  bool done = parameters.authalic_steps == 0;
+  for (double time = 0; !done;) {
     progress.check();
-    report(static_cast<double>(step) / parameters.authalic_steps);
+    report(time / end);
     Harmonics smooth = transform.analyze(log_density(sphere));
     scale_degrees(degree, smooth, [&](int l) { return -std::exp(-parameters.authalic_smoothing * l * (l + 1)); });
-    advect(sphere, TangentField(transform.synthesize_tangent(smooth, {})), parameters.authalic_step_size);
+    const TangentGrid field = transform.synthesize_tangent(smooth, {});
+    const double left = end - time, size = step_size(field, parameters);
+    done = left < 1.001 * size;  // within rounding of one step
+    advect(sphere, TangentField(field), done ? left : size);
+    time += size;
     // Steps are short, so that one on the way is as good as three; the last state is centred as exactly as the first.
     centering_step(sphere, vertex_mass);
-    for (int i = 0; i < kCenteringSteps && step + 1 == parameters.authalic_steps; ++i) centering_step(sphere, faces, face_mass);
+    for (int i = 0; i < kCenteringSteps && done; ++i) centering_step(sphere, faces, face_mass);
     if (repair.repair(sphere)) last_good = sphere;
   }
   original(order, Eigen::all) = last_good;

@@ -317,6 +317,7 @@ TEST(PreprocessParameters, NameTheInvalidField) {
   for (const double size : {0.0, -1.0, nan, infinity}) {
     expect_invalid(with([&](auto& p) { p.conformal_step_size = size; }), "conformal_step_size");
     expect_invalid(with([&](auto& p) { p.authalic_step_size = size; }), "authalic_step_size");
+    expect_invalid(with([&](auto& p) { p.authalic_longest_move = size; }), "authalic_longest_move");
     if (size != 0) expect_invalid(with([&](auto& p) { p.conformal_tolerance = size; }), "conformal_tolerance");
     expect_invalid(with([&](auto& p) { p.authalic_smoothing = size; }), "authalic_smoothing");
     expect_invalid(with([&](auto& p) { p.hks_times = {1, size}; }), "hks_times");
