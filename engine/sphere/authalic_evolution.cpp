@@ -18,6 +18,7 @@ namespace {
 
 constexpr int kCenteringSteps = 3;
 constexpr double kMostShortened = 20;
+constexpr int kStepsPerRepair = 5;
 
 /// The degree beyond which smoothing leaves less than 1e-6 of a coefficient.
 int smoothed_degree(double smoothing, int resolution) {
@@ -77,12 +78,14 @@ void evolve_authalically(Points& original, const TriMesh& surface, const Preproc
   const FlipRepair repair(mesh);
   const LogDensity log_density(faces, face_mass, parameters);
 
-  // Coarse limbs cannot follow the flow without flips, since their rings become polygons thinner than their own bend. So each
-  // step is projected back to where nothing flips. Where that fails a later step mostly mends it; if not, the last good one counts.
+  // Coarse limbs cannot follow the flow without flips, since their rings become polygons thinner than their own bend. So every few
+  // steps and in the end the state is projected back to where nothing flips. Where that fails a later time mostly mends it; if not, the
+  // last good one counts.
   Points last_good = sphere;
   const double end = parameters.authalic_steps * parameters.authalic_step_size;
   bool done = parameters.authalic_steps == 0;
-  for (double time = 0; !done;) {
+  double time = 0;
+  for (int step = 1; !done; ++step) {
     progress.check();
     report(time / end);
     Harmonics smooth = transform.analyze(log_density(sphere));
@@ -95,7 +98,7 @@ void evolve_authalically(Points& original, const TriMesh& surface, const Preproc
     // Steps are short, so that one on the way is as good as three; the last state is centred as exactly as the first.
     centering_step(sphere, vertex_mass);
     for (int i = 0; i < kCenteringSteps && done; ++i) centering_step(sphere, faces, face_mass);
-    if (repair.repair(sphere)) last_good = sphere;
+    if ((done || step % kStepsPerRepair == 0) && repair.repair(sphere)) last_good = sphere;
   }
   original(order, Eigen::all) = last_good;
 }
