@@ -91,14 +91,16 @@ SphereBranch parametrize(const TriMesh& mesh, const PreprocessParameters& parame
   return result;
 }
 
-std::vector<SignalGrid> signal_grids(const PreprocessedShape& shape, const Triangles& faces, const PreprocessParameters& parameters) {
+/// `mesh`: the working mesh at unit area.
+std::vector<SignalGrid> signal_grids(const PreprocessedShape& shape, const TriMesh& mesh, const PreprocessParameters& parameters) {
   std::vector<std::string> names;
   for (const double time : parameters.hks_times) names.push_back(hks_name(time));
   for (const std::string& name : selection_signal_names()) names.push_back(name);
+  for (const char* name : position_signal_names) names.emplace_back(name);
   Eigen::MatrixXd signatures(shape.sphere.rows(), static_cast<Eigen::Index>(names.size()));
   signatures << heat_kernel_signatures(shape.eigenvalues, shape.eigenvectors, parameters.hks_times),
-      selection_signals(shape.eigenvalues, shape.eigenvectors);
-  const std::vector<Grid> grids = rasterize_signals(shape.sphere, faces, signatures, parameters.signal_resolution);
+      selection_signals(shape.eigenvalues, shape.eigenvectors), mesh.vertices;
+  const std::vector<Grid> grids = rasterize_signals(shape.sphere, mesh.faces, signatures, parameters.signal_resolution);
   std::vector<SignalGrid> result;
   for (std::size_t i = 0; i < grids.size(); ++i) result.push_back({names[i], grids[i].matrix().cast<float>()});
   return result;
@@ -106,7 +108,7 @@ std::vector<SignalGrid> signal_grids(const PreprocessedShape& shape, const Trian
 
 }  // namespace
 
-std::string_view engine_version() { return "4"; }
+std::string_view engine_version() { return "5"; }
 
 Surface read_surface(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options, const ReadLimits& limits) {
   options.validate();
@@ -140,7 +142,7 @@ PreprocessedShape preprocess(Surface surface, const PreprocessParameters& parame
   shape.sphere_quality = measure_sphere(shape.sphere, mesh);
   shape.eigenvalues = basis.values;
   shape.eigenvectors = std::move(basis.vectors);
-  shape.signals = signal_grids(shape, mesh.faces, parameters);
+  shape.signals = signal_grids(shape, mesh, parameters);
   const double simplify_seconds = surface.decimated ? surface.decimated->seconds : 0;
   if (surface.decimated) shape.seconds.emplace_back("simplify", simplify_seconds);
   shape.seconds.insert(shape.seconds.end(), branch.seconds.begin(), branch.seconds.end());

@@ -80,6 +80,14 @@ void MatchParameters::validate() const {
   require(flow_settled >= 0 && flow_settled < 1, "flow_settled", "must be at least 0 and below 1");
   require(positive(flow_tolerance) && flow_tolerance < 1, "flow_tolerance", "must be above 0 and below 1");
   require(positive(flow_smoothness), "flow_smoothness", "must be positive");
+  require(flow_detail >= 0 && flow_detail <= 1e6, "flow_detail", "must be 0 to 1000000");
+  require(flow_detail_from >= 0, "flow_detail_from", "must be at least 0");
+  require(elastic_iterations.size() <= 3, "elastic_iterations", "must hold at most 3 numbers");
+  for (const int n : elastic_iterations) require(n >= 0 && n <= 100, "elastic_iterations", "must be 0 to 100");
+  require(elastic_area > 0 && elastic_area <= 1e6, "elastic_area", "must be above 0 and at most 1000000");
+  require(elastic_signals >= 0 && elastic_signals <= 1e6, "elastic_signals", "must be 0 to 1000000");
+  require(positive(elastic_longest_move) && elastic_longest_move <= 1, "elastic_longest_move", "must be above 0 and at most 1");
+  require(elastic_settled >= 0 && elastic_settled < 1, "elastic_settled", "must be at least 0 and below 1");
   require(hints.size() <= max_hints, "hints", "must hold at most 64 pairs");
   for (const Hint& hint : hints) require(hint.source >= 0 && hint.target >= 0, "hints", "must be vertex numbers from 0");
 }
@@ -93,8 +101,11 @@ MatchParameters MatchParameters::paper() {
   parameters.paper_selection = true;
   parameters.rotation_bandwidth = 32;
   parameters.mesh_flow = true;
+  parameters.flow_detail = 0;
+  parameters.elastic_iterations = {};
   parameters.finest_flow = 512;
   parameters.flow_tolerance = 1e-5;
+  parameters.flow_iterations = 6;
   parameters.flow_settled = 0;
   return parameters;
 }

@@ -76,12 +76,21 @@ struct MatchParameters {
   // Optical flow (engine/register/optical_flow.h): level i has resolution flow_resolution * 2^i and the signal of flow_times[i]
   std::vector<double> flow_times{0.5, 0.25, 0.125, 0.0625};
   int flow_resolution = 16;
-  int flow_iterations = 6;        ///< per level, at most
+  int flow_iterations = 4;        ///< per level, at most
   double flow_settled = 0.02;     ///< radians: a level ends with the first step that moves no point farther
   double flow_smoothness = 0.05;  ///< alpha
   int finest_flow = 64;           ///< resolution above which no level is solved; its smoothing stays that of the level
-  double flow_tolerance = 0.03;   ///< of each solve, on the residual
+  double flow_tolerance = 0.1;    ///< of each solve, on the residual
+  double flow_detail = 1;         ///< weight of the logarithms of signatures at small times, beside a level's own signal
+  int flow_detail_from = 1;       ///< the first level where they count
   bool mesh_flow = false;         ///< rasterises the moved meshes at each iteration as the paper does: slower, for comparison
+
+  // Elastic flow (engine/register/elastic_flow.h)
+  std::vector<int> elastic_iterations{2, 4};  ///< at most, on icospheres of 642, 2562, 10242 nodes; none for the optical flow alone
+  double elastic_area = 1;                    ///< weight of changes of area, against that of losses of shape
+  double elastic_signals = 30;                ///< weight of differences of signals
+  double elastic_longest_move = 0.1;          ///< radians, of a step
+  double elastic_settled = 0.005;             ///< radians: a level ends with the first step that moves no node farther
 
   // Candidate selection (engine/register/selection.h)
   int fine_candidates = 2;       ///< only this many best ones go on after the coarser half of the levels

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -28,6 +29,9 @@ struct SignalGrid {
 
 /// Name of the heat kernel signature at a time, "hks_0.0625".
 [[nodiscard]] std::string hks_name(double time);
+
+/// Names of the signals that are the coordinates of the surface, scaled to unit area.
+inline constexpr std::array<const char*, 3> position_signal_names{"position_x", "position_y", "position_z"};
 
 struct PreprocessedShape {
   Surface surface;

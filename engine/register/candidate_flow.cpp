@@ -15,8 +15,8 @@
 namespace spherematch {
 namespace {
 
-/// The signals' scores of candidates differ by a few thousandths, so hints decide where they differ by a few hundredths of the shape.
-constexpr double kHintWeight = 0.1;
+/// The signals' scores of candidates differ by a few hundredths, so hints decide where they differ by a few hundredths of the shape.
+constexpr double kHintWeight = 0.8;
 /// Widths of the guiding deformation in radians: wide before the coarse levels, for proportions that differ, then narrower.
 constexpr double kCoarseGuide = 1.2, kFineGuide = 0.5;
 
@@ -40,9 +40,35 @@ FlowParameters flow_levels(const MatchParameters& parameters, std::size_t first,
   flow.tolerance = parameters.flow_tolerance;
   flow.settled = parameters.flow_settled;
   flow.finest_resolution = parameters.finest_flow;
-  for (std::size_t level = first; level < last; ++level)
-    flow.levels.push_back({parameters.flow_resolution << level, parameters.flow_iterations, {level}});
+  for (std::size_t level = first; level < last; ++level) {
+    FlowLevel added{parameters.flow_resolution << level, parameters.flow_iterations, {level}, {1}};
+    if (parameters.flow_detail > 0 && static_cast<int>(level) >= parameters.flow_detail_from) {
+      for (std::size_t c = 0; c < heat_detail_names().size(); ++c) {
+        added.channels.push_back(parameters.flow_times.size() + c);
+        added.weights.push_back(parameters.flow_detail);
+      }
+    }
+    flow.levels.push_back(std::move(added));
+  }
   return flow;
+}
+
+/// Tables of icospheres, each made at most once in a process: that of the finest takes 50 ms.
+const NodeMesh& node_mesh(std::size_t level) {
+  if (level == 0) {
+    static const NodeMesh coarse(3, kNodes);
+    return coarse;
+  }
+  if (level == 1) {
+    static const NodeMesh middle(4, kNodes);
+    return middle;
+  }
+  static const NodeMesh fine(5, 2 * kNodes);
+  return fine;
+}
+
+ElasticParameters elastic_level(const MatchParameters& parameters, int iterations) {
+  return {parameters.elastic_area, parameters.elastic_signals, parameters.elastic_longest_move, parameters.elastic_settled, iterations};
 }
 
 /// Mean distance of the hints on the sphere where both shapes are registered, relative to the square root of its area.
@@ -53,9 +79,10 @@ double hint_distance(const Registration& registration, const HintDirections& hin
 
 void judge(Registration& registration, const Pair& pair, int nodes) {
   const Points s = registration.source->origins(nodes), t = registration.target->origins(nodes);
-  const auto& cost = pair.parameters.paper_selection ? paper_cost : registration_cost;
-  registration.score = cost({pair.source.shape.signals(), pair.source.selection_channels, s},
-                            {pair.target.shape.signals(), pair.target.selection_channels, t}, nodes);
+  const RegisteredSignals f{pair.source.shape.signals(), pair.source.selection_channels, s};
+  const RegisteredSignals g{pair.target.shape.signals(), pair.target.selection_channels, t};
+  registration.score =
+      pair.parameters.paper_selection ? paper_cost(f, g, nodes) : registration_cost(f, g, selection_signal_weights(), nodes);
   if (pair.hints.source.rows() > 0) registration.score += kHintWeight * hint_distance(registration, pair.hints);
 }
 
@@ -63,10 +90,17 @@ void judge(Registration& registration, const Pair& pair, int nodes) {
 
 PairSide::PairSide(const MatchShape& match_shape, const MatchParameters& parameters) : shape(match_shape) {
   for (const double time : parameters.flow_times) flow_channels.push_back(shape.channel(hks_name(time)));
+  if (parameters.flow_detail > 0)
+    for (const std::string& name : heat_detail_names()) flow_channels.push_back(shape.channel(name));
   if (parameters.paper_selection) {
     selection_channels = {shape.channel(hks_name(0.01))};
   } else {
     for (const std::string& name : selection_signal_names()) selection_channels.push_back(shape.channel(name));
+  }
+  if (!parameters.elastic_iterations.empty()) {
+    elastic.emplace(ElasticChannels{shape.signals(), {}, {}, selection_signal_weights()});
+    for (std::size_t axis = 0; axis < 3; ++axis) elastic->position[axis] = shape.channel(position_signal_names[axis]);
+    for (const std::string& name : selection_signal_names()) elastic->compared.push_back(shape.channel(name));
   }
   if (parameters.mesh_flow) mesh = std::make_shared<const MeshSignals>(shape, parameters.flow_times);
 }
@@ -107,6 +141,17 @@ std::size_t flow_candidates(std::vector<Registration>& registrations, const Pair
     order.resize(std::min(fine, order.size()));
   }
   flow(coarse, levels);
+
+  const std::vector<int>& iterations = pair.parameters.elastic_iterations;
+  for (std::size_t level = 0; level < iterations.size(); ++level) {
+    run_parallel(order.size(), threads, [&](std::size_t i) {
+      Registration& registration = registrations[order[i]];
+      registration.elastic = flow_elastically(*registration.source, *pair.source.elastic, *registration.target, *pair.target.elastic,
+                                              pair.hints, node_mesh(level), elastic_level(pair.parameters, iterations[level]), progress);
+      judge(registration, pair, kNodes);
+    });
+    std::stable_sort(order.begin(), order.end(), better);
+  }
   return order.front();
 }
 

@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/data/parameters.h"
 #include "engine/data/progress.h"
+#include "engine/register/elastic_flow.h"
 #include "engine/register/flow_side.h"
 #include "engine/register/hints.h"
 #include "engine/register/match_shape.h"
@@ -16,8 +18,9 @@ namespace spherematch {
 /// One shape of a pair, and what the parameters ask of it. Refers to the shape, which must outlive it.
 struct PairSide {
   const MatchShape& shape;
-  std::vector<Eigen::Index> flow_channels;       ///< of shape.signals(), one per flow time
+  std::vector<Eigen::Index> flow_channels;       ///< of shape.signals(), one per flow time, then the heat details
   std::vector<Eigen::Index> selection_channels;  ///< of shape.signals(): what registrations are compared by
+  std::optional<ElasticChannels> elastic;        ///< where an elastic flow is wanted
   std::shared_ptr<const MeshSignals> mesh;       ///< where the flow moves meshes, else null
 
   /// @throws EngineError(invalid_parameter) when a time is none of those at which the shape's signals are stored
@@ -38,6 +41,7 @@ struct Registration {
   bool guided;            ///< pulled together at the hints before the flow
   std::unique_ptr<FlowSide> source, target;
   double score = 0;
+  ElasticEnergy elastic = {};  ///< after the elastic flow
 };
 
 /// Every rotation's registration before the flow; with hints once as it is and once guided by them.

@@ -42,9 +42,12 @@ std::vector<Harmonics> GridFlowSide::signals(const std::vector<std::size_t>& cha
                                              const HarmonicTransform& on_nodes) const {
   std::vector<Grid> grids(channels.size(), Grid(resolution_, resolution_));
   samples_.for_each_stencil(origins_, [&](Eigen::Index node, const GridSamples::Stencil& stencil) {
+    Eigen::Index pack = -1;
+    GridSamples::Pack values;
     for (std::size_t c = 0; c < channels.size(); ++c) {
       const Eigen::Index channel = channels_[channels[c]];
-      grids[c].data()[node] = samples_(stencil, static_cast<std::size_t>(channel / 4))[channel % 4];
+      if (channel / 4 != pack) values = samples_(stencil, static_cast<std::size_t>(pack = channel / 4));
+      grids[c].data()[node] = values[channel % 4];
     }
   });
   std::vector<Harmonics> result;
@@ -56,6 +59,8 @@ Points GridFlowSide::origins(int resolution) const {
   if (resolution == resolution_) return origins_;
   return OriginSamples(origins_, resolution_).at(cell_centers(resolution));
 }
+
+Points GridFlowSide::origins(const Points& points) const { return OriginSamples(origins_, resolution_).at(points); }
 
 void GridFlowSide::move(const std::shared_ptr<const TangentField>& field, double step) {
   warp_.append(field, step);
@@ -70,8 +75,13 @@ void GridFlowSide::follow(int resolution) {
 }
 
 MeshSignals::MeshSignals(const MatchShape& shape, const std::vector<double>& times)
-    : MeshSignals(shape.working_sphere(), shape.working_faces(),
-                  heat_kernel_signatures(shape.shape().eigenvalues, shape.shape().eigenvectors, times)) {}
+    : sphere(shape.working_sphere()), faces(shape.working_faces()) {
+  const Eigen::VectorXd& values = shape.shape().eigenvalues;
+  const Eigen::MatrixXf& vectors = shape.shape().eigenvectors;
+  const Eigen::MatrixXd heat = heat_kernel_signatures(values, vectors, times), detail = selection_signals(values, vectors);
+  signals.resize(heat.rows(), heat.cols() + detail.cols());
+  signals << heat, detail;
+}
 
 MeshFlowSide::MeshFlowSide(std::shared_ptr<const MeshSignals> mesh, const Eigen::Matrix3d& rotation)
     : FlowSide(rotation), mesh_(std::move(mesh)), sphere_(mesh_->sphere * rotation.transpose()) {}

@@ -30,6 +30,9 @@ class FlowSide {
   /// For each cell centre of a grid, row by row, the point of the prepared sphere that was carried there, (N * N, 3).
   [[nodiscard]] virtual Points origins(int resolution) const = 0;
 
+  /// The same for any points, (P, 3) unit vectors.
+  [[nodiscard]] virtual Points origins(const Points& points) const { return warp_.backward(points); }
+
   /// Appends a step to the warp.
   virtual void move(const std::shared_ptr<const TangentField>& field, double step) = 0;
 
@@ -51,6 +54,7 @@ class GridFlowSide : public FlowSide {
                                                const HarmonicTransform& on_nodes) const override;
   void follow(int resolution) override;
   [[nodiscard]] Points origins(int resolution) const override;
+  [[nodiscard]] Points origins(const Points& points) const override;
   void move(const std::shared_ptr<const TangentField>& field, double step) override;
 
  private:
@@ -64,7 +68,7 @@ class GridFlowSide : public FlowSide {
 struct MeshSignals {
   MeshSignals(Points prepared_sphere, Triangles mesh_faces, Eigen::MatrixXd vertex_signals)
       : sphere(std::move(prepared_sphere)), faces(std::move(mesh_faces)), signals(std::move(vertex_signals)) {}
-  /// The heat kernel signatures of the shape at the given times.
+  /// The heat kernel signatures of the shape at the given times, then its selection signals.
   MeshSignals(const MatchShape& shape, const std::vector<double>& times);
 
   Points sphere;            ///< (V, 3)

@@ -30,12 +30,12 @@ class FlowSystem {
   }
 
   /// Adds one channel of both shapes, given by its coefficients.
-  void add_channel(const Harmonics& source, const Harmonics& target) {
+  void add_channel(const Harmonics& source, const Harmonics& target, double weight) {
     const TangentGrid s = transform_.synthesize_tangent(source, {}), t = transform_.synthesize_tangent(target, {});
-    const Grid difference = transform_.synthesize(source - target);
-    tensor_[0] += s.colatitude * s.colatitude + t.colatitude * t.colatitude;
-    tensor_[1] += s.colatitude * s.longitude + t.colatitude * t.longitude;
-    tensor_[2] += s.longitude * s.longitude + t.longitude * t.longitude;
+    const Grid difference = weight * transform_.synthesize(source - target);
+    tensor_[0] += weight * (s.colatitude * s.colatitude + t.colatitude * t.colatitude);
+    tensor_[1] += weight * (s.colatitude * s.longitude + t.colatitude * t.longitude);
+    tensor_[2] += weight * (s.longitude * s.longitude + t.longitude * t.longitude);
     right_.colatitude += difference * (s.colatitude + t.colatitude);
     right_.longitude += difference * (s.longitude + t.longitude);
   }
@@ -93,7 +93,7 @@ class FlowSystem {
   double smoothness_;
   double tolerance_;
   Eigen::ArrayXd areas_;
-  Grid tensor_[3];     ///< sum of g g^T over channels and shapes: (colatitude, colatitude), mixed, (longitude, longitude)
+  Grid tensor_[3];     ///< weighted sum of g g^T over channels and shapes: (colatitude, colatitude), mixed, (longitude, longitude)
   TangentGrid right_;  ///< sum of (f_S - f_T) (grad f_S + grad f_T)
 };
 
@@ -127,7 +127,7 @@ void flow_together(FlowSide& source, FlowSide& target, const FlowPlan& plan, con
       progress.check();
       const std::vector<Harmonics> f = level_signals(source, level), g = level_signals(target, level);
       FlowSystem system(level.on_level, plan);
-      for (std::size_t c = 0; c < f.size(); ++c) system.add_channel(f[c], g[c]);
+      for (std::size_t c = 0; c < f.size(); ++c) system.add_channel(f[c], g[c], level.level.weights.empty() ? 1 : level.level.weights[c]);
       Harmonics stream = system.solve();
       smooth(degree, cutoff_smoothing(level.level.resolution / 2, 100.0 * level.level.resolution), stream);
       const TangentGrid step = level.on_nodes.synthesize_tangent({}, stream);

@@ -14,6 +14,7 @@ struct FlowLevel {
   int resolution;                     ///< N: signals and fields are smoothed as suits harmonics up to N / 2
   int iterations;                     ///< at most
   std::vector<std::size_t> channels;  ///< of the sides' signals: what drives this level
+  std::vector<double> weights = {};   ///< of the channels; empty where they weigh alike
 };
 
 struct FlowParameters {
@@ -50,7 +51,7 @@ class FlowPlan {
 };
 
 /// Moves both shapes half way towards each other, level by level. Each iteration minimises, over tangent fields W = p x grad u,
-///   sum over channels and both shapes of (<grad f_i, W> - (f_S - f_T))^2 + alpha (Laplacian u)^2
+///   weighted sum over channels and both shapes of (<grad f_i, W> - (f_S - f_T))^2 + alpha (Laplacian u)^2
 /// in spherical harmonics (no poles) by conjugate gradients, smooths u, and moves the source by W/2 and the target by -W/2.
 /// @throws EngineError(cancelled)
 void flow_together(FlowSide& source, FlowSide& target, const FlowPlan& plan, const Progress& progress);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -167,6 +168,7 @@ MatchResult register_pair(const MatchShape& source, const MatchShape& target, co
     result.reverse = compose(target.surface(), source.surface(), reverse.locations);
     result.quality.emplace_back("flipped_target", static_cast<double>(reverse.flipped));
   }
+  if (!parameters.elastic_iterations.empty()) result.quality.emplace_back("strain", std::sqrt(best.best().elastic.strain));
   result.quality.emplace_back("score", best.best().score);
   result.quality.emplace_back("score_runner_up", runner_up_score(result.candidates));
   result.seconds.emplace_back("correspondence", watch.lap());

@@ -30,11 +30,15 @@ std::vector<Grid> on_grid(const RegisteredSignals& side, int resolution) {
 
 }  // namespace
 
-double registration_cost(const RegisteredSignals& source, const RegisteredSignals& target, int resolution) {
+double registration_cost(const RegisteredSignals& source, const RegisteredSignals& target, const std::vector<double>& weights,
+                         int resolution) {
   const std::vector<Grid> f = on_grid(source, resolution), g = on_grid(target, resolution);
-  double cost = 0;
-  for (std::size_t c = 0; c < f.size(); ++c) cost += mean_over_sphere((f[c] - g[c]).abs());
-  return cost / static_cast<double>(f.size());
+  double squares = 0, weight = 0;
+  for (std::size_t c = 0; c < f.size(); ++c) {
+    squares += weights[c] * mean_over_sphere((f[c] - g[c]).square());
+    weight += weights[c];
+  }
+  return std::sqrt(squares / weight);
 }
 
 double paper_cost(const RegisteredSignals& source, const RegisteredSignals& target, int resolution) {

@@ -17,10 +17,12 @@ struct RegisteredSignals {
   const Points& origins;
 };
 
-/// Mean over the sphere, and over the channels, of the absolute difference of two shapes' signals.
-[[nodiscard]] double registration_cost(const RegisteredSignals& source, const RegisteredSignals& target, int resolution);
+/// Root of the mean square difference of two shapes' signals over the sphere and over the channels, which have the given weights. Squares
+/// tell better than absolute values: a map that is turned round is wrong by much at feet, hands and face, which are small.
+[[nodiscard]] double registration_cost(const RegisteredSignals& source, const RegisteredSignals& target, const std::vector<double>& weights,
+                                       int resolution);
 
-/// The paper's cost: the same, smoothed before it is compared.
+/// The paper's cost: mean over the sphere, and over the channels, of the absolute difference of signals that are smoothed before.
 [[nodiscard]] double paper_cost(const RegisteredSignals& source, const RegisteredSignals& target, int resolution);
 
 }  // namespace spherematch

@@ -30,10 +30,18 @@ Eigen::MatrixXd wave_kernel_signatures(const Eigen::VectorXd& values, const Eige
   return vectors.cast<double>().cwiseAbs2() * weights;
 }
 
+std::vector<std::string> heat_detail_names() { return {"log_hks_0.003", "log_hks_0.001"}; }
+
 std::vector<std::string> selection_signal_names() {
-  std::vector<std::string> names{"log_hks_0.003", "log_hks_0.001"};
+  std::vector<std::string> names = heat_detail_names();
   for (int energy = kEnergies / 2; energy < kEnergies; ++energy) names.push_back("log_wks_" + std::to_string(energy));
   return names;
+}
+
+std::vector<double> selection_signal_weights() {
+  std::vector<double> weights(selection_signal_names().size(), kEnergies / 2.0);
+  weights[0] = weights[1] = 1;
+  return weights;
 }
 
 Eigen::MatrixXd selection_signals(const Eigen::VectorXd& values, const Eigen::MatrixXf& vectors) {

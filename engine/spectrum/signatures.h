@@ -16,8 +16,14 @@ namespace spherematch {
 /// and the largest eigenvalue, (V, count).
 [[nodiscard]] Eigen::MatrixXd wave_kernel_signatures(const Eigen::VectorXd& values, const Eigen::MatrixXf& vectors, int count);
 
+/// Names of the first of the selection signals, logarithms of heat kernel signatures.
+[[nodiscard]] std::vector<std::string> heat_detail_names();
+
 /// Names of the columns of selection_signals().
 [[nodiscard]] std::vector<std::string> selection_signal_names();
+
+/// With these weights of squares of differences the wave energies together count as one signal, by their mean.
+[[nodiscard]] std::vector<double> selection_signal_weights();
 
 /// Signals that tell a right registration from a turned one, what only feet, hands and faces show: logarithms of heat kernel signatures
 /// at small times and of wave kernel signatures at high energies, (V, selection_signal_names()). Scaled so that the two heat signals and

@@ -24,8 +24,15 @@ TEST(ParametersJson, EveryFieldOfAMatchShows) {
   EXPECT_TRUE(changed(&MatchParameters::flow_settled, 0.1));
   EXPECT_TRUE(changed(&MatchParameters::flow_smoothness, 0.1));
   EXPECT_TRUE(changed(&MatchParameters::finest_flow, 32));
-  EXPECT_TRUE(changed(&MatchParameters::flow_tolerance, 0.1));
+  EXPECT_TRUE(changed(&MatchParameters::flow_tolerance, 0.2));
+  EXPECT_TRUE(changed(&MatchParameters::flow_detail, 0.5));
+  EXPECT_TRUE(changed(&MatchParameters::flow_detail_from, 2));
   EXPECT_TRUE(changed(&MatchParameters::mesh_flow, true));
+  EXPECT_TRUE(changed(&MatchParameters::elastic_iterations, std::vector<int>{1}));
+  EXPECT_TRUE(changed(&MatchParameters::elastic_area, 0.5));
+  EXPECT_TRUE(changed(&MatchParameters::elastic_signals, 1.0));
+  EXPECT_TRUE(changed(&MatchParameters::elastic_longest_move, 0.2));
+  EXPECT_TRUE(changed(&MatchParameters::elastic_settled, 0.1));
   EXPECT_TRUE(changed(&MatchParameters::fine_candidates, 3));
   EXPECT_TRUE(changed(&MatchParameters::paper_selection, true));
   EXPECT_TRUE(changed(&MatchParameters::orientation, Orientation::reverse));

@@ -38,7 +38,7 @@ TEST(SelectionSignals, TellTheEndsOfABodyApart) {
   const Points straight = turned_nodes(Eigen::Matrix3d::Identity());
   const auto cost = [&](const Eigen::Matrix3d& turn) {
     const Points turned = turned_nodes(turn);
-    return registration_cost({samples, all, turned}, {samples, all, straight}, kResolution);
+    return registration_cost({samples, all, turned}, {samples, all, straight}, selection_signal_weights(), kResolution);
   };
   EXPECT_EQ(cost(Eigen::Matrix3d::Identity()), 0);
   const double slightly = cost(Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitX()).toRotationMatrix());
@@ -57,30 +57,32 @@ const GridSamples& known_functions() {
   return samples;
 }
 
-using Cost = double (*)(const RegisteredSignals&, const RegisteredSignals&, int);
-
-double cost_between(Cost cost, const std::vector<Eigen::Index>& f, const std::vector<Eigen::Index>& g) {
+double cost_between(const std::vector<Eigen::Index>& f, const std::vector<Eigen::Index>& g, const std::vector<double>& weights) {
   const Points nodes = turned_nodes(Eigen::Matrix3d::Identity());
-  return cost({known_functions(), f, nodes}, {known_functions(), g, nodes}, kResolution);
+  return registration_cost({known_functions(), f, nodes}, {known_functions(), g, nodes}, weights, kResolution);
 }
 
-TEST(RegistrationCost, IsTheMeanDifferenceOverSphereAndChannels) {
-  EXPECT_EQ(cost_between(registration_cost, {1, 2}, {1, 2}), 0);
-  EXPECT_NEAR(cost_between(registration_cost, {3}, {0}), 2, 1e-12);
-  // The mean of |2 z| over the sphere is one. Measured: 3e-4.
-  EXPECT_NEAR(cost_between(registration_cost, {2}, {4}), 1, 6e-4);
-  EXPECT_NEAR(cost_between(registration_cost, {3, 2}, {0, 4}), 1.5, 6e-4);
-  // The mean of |x - z| is that of |z| times the square root of two.
-  EXPECT_NEAR(cost_between(registration_cost, {1}, {2}), std::numbers::sqrt2 / 2, 6e-4);
+TEST(RegistrationCost, IsTheRootOfTheMeanSquareDifference) {
+  EXPECT_EQ(cost_between({1, 2}, {1, 2}, {1, 1}), 0);
+  EXPECT_NEAR(cost_between({3}, {0}, {1}), 2, 1e-12);
+  // The mean of 4 z^2 over the sphere is 4/3, that of (x - z)^2 is 2/3. Measured: 4e-4.
+  EXPECT_NEAR(cost_between({2}, {4}, {1}), std::sqrt(4.0 / 3), 1e-3);
+  EXPECT_NEAR(cost_between({1}, {2}, {1}), std::sqrt(2.0 / 3), 1e-3);
+  EXPECT_NEAR(cost_between({3, 2}, {0, 4}, {1, 3}), std::sqrt((4 + 3 * 4.0 / 3) / 4), 1e-3);
+}
+
+double paper_cost_between(const std::vector<Eigen::Index>& f, const std::vector<Eigen::Index>& g) {
+  const Points nodes = turned_nodes(Eigen::Matrix3d::Identity());
+  return paper_cost({known_functions(), f, nodes}, {known_functions(), g, nodes}, kResolution);
 }
 
 TEST(PaperCost, OfKnownFunctionsIsTheirMeanDifference) {
-  EXPECT_EQ(cost_between(paper_cost, {2}, {2}), 0);
-  EXPECT_NEAR(cost_between(paper_cost, {3}, {0}), 2, 1e-12);
+  EXPECT_EQ(paper_cost_between({2}, {2}), 0);
+  EXPECT_NEAR(paper_cost_between({3}, {0}), 2, 1e-12);
   // Degree one is damped by exp(-2 tau), tau = ln(100) / (32 * 33).
   const double damping = std::exp(-2 * std::log(100.0) / (32 * 33));
-  EXPECT_NEAR(cost_between(paper_cost, {2}, {4}), damping, 3e-4);
-  EXPECT_NEAR(cost_between(paper_cost, {2}, {4}), cost_between(paper_cost, {4}, {2}), 1e-15);
+  EXPECT_NEAR(paper_cost_between({2}, {4}), damping, 3e-4);
+  EXPECT_NEAR(paper_cost_between({2}, {4}), paper_cost_between({4}, {2}), 1e-15);
 }
 
 }  // namespace
