@@ -83,7 +83,7 @@ void MatchParameters::validate() const {
   require(flow_detail >= 0 && flow_detail <= 1e6, "flow_detail", "must be 0 to 1000000");
   require(flow_detail_from >= 0, "flow_detail_from", "must be at least 0");
   require(elastic_iterations.size() <= 3, "elastic_iterations", "must hold at most 3 numbers");
-  for (const int n : elastic_iterations) require(n >= 0 && n <= 100, "elastic_iterations", "must be 0 to 100");
+  for (const int n : elastic_iterations) require(n >= 1 && n <= 100, "elastic_iterations", "must be 1 to 100");
   require(elastic_area > 0 && elastic_area <= 1e6, "elastic_area", "must be above 0 and at most 1000000");
   require(elastic_signals >= 0 && elastic_signals <= 1e6, "elastic_signals", "must be 0 to 1000000");
   require(positive(elastic_longest_move) && elastic_longest_move <= 1, "elastic_longest_move", "must be above 0 and at most 1");

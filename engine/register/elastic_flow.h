@@ -1,4 +1,6 @@
 // Elastic flow: what the optical flow, which knows only the sphere, leaves to be done on the surfaces themselves.
+// Our own addition to the paper. Strain of the surfaces' own triangles as the measure of smoothness is known from cortical registration
+// (Robinson et al. 2018).
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// How a map strains one triangle.
+// How a map strains one triangle: logarithmic strain (Hencky 1928).
 #pragma once
 
 #include <Eigen/Core>

@@ -361,6 +361,17 @@ TEST(MatchParameters, NameTheInvalidField) {
   expect_invalid(with([&](auto& p) { p.flow_times.assign(6, 0.5); }), "flow_times");
   for (const int resolution : {6, 9, 34}) expect_invalid(with([&](auto& p) { p.flow_resolution = resolution; }), "flow_resolution");
   for (const int iterations : {-1, 101}) expect_invalid(with([&](auto& p) { p.flow_iterations = iterations; }), "flow_iterations");
+  for (const int iterations : {0, 101})
+    expect_invalid(with([&](auto& p) { p.elastic_iterations = {2, iterations}; }), "elastic_iterations");
+  expect_invalid(with([&](auto& p) { p.elastic_iterations.assign(4, 1); }), "elastic_iterations");
+  expect_invalid(with([&](auto& p) { p.flow_detail_from = -1; }), "flow_detail_from");
+  for (const double value : {-1.0, nan, infinity}) {
+    expect_invalid(with([&](auto& p) { p.flow_detail = value; }), "flow_detail");
+    expect_invalid(with([&](auto& p) { p.elastic_area = value; }), "elastic_area");
+    expect_invalid(with([&](auto& p) { p.elastic_signals = value; }), "elastic_signals");
+    expect_invalid(with([&](auto& p) { p.elastic_longest_move = value; }), "elastic_longest_move");
+    expect_invalid(with([&](auto& p) { p.elastic_settled = value; }), "elastic_settled");
+  }
   expect_invalid(with([&](auto& p) { p.hints.assign(65, {1, 1}); }), "hints");
   expect_invalid(with([&](auto& p) { p.hints = {{0, 0}, {-1, 0}}; }), "hints");
   expect_invalid(with([&](auto& p) { p.hints = {{0, -1}}; }), "hints");
