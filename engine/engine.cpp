@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/data/parallel.h"
+#include "engine/evaluate/involution.h"
 #include "engine/evaluate/map_error.h"
 #include "engine/io/mesh_reader.h"
 #include "engine/mesh/decimate.h"
@@ -158,7 +159,13 @@ PreprocessedShape preprocess(Surface surface, const PreprocessParameters& parame
 MatchResult match(const MatchShape& source, const MatchShape& target, const MatchParameters& parameters, const Progress& progress,
                   int threads) {
   parameters.validate();
-  return register_pair(source, target, parameters, progress, threads);
+  MatchResult result = register_pair(source, target, parameters, progress, threads);
+  if (&source.shape() == &target.shape() && result.reversed) {
+    const InvolutionResidual residual = involution_residual(result.map, source.surface());
+    result.quality.emplace_back("involution_mean", residual.mean);
+    result.quality.emplace_back("involution_max", residual.max);
+  }
+  return result;
 }
 
 MatchResult match(const PreprocessedShape& source, const PreprocessedShape& target, const MatchParameters& parameters,

@@ -33,7 +33,9 @@ namespace spherematch {
                                            int threads = 2);
 
 /// The part that belongs to a pair: rotational alignment, optical flow, candidate selection, composition. A MatchShape is made once of a
-/// preprocessed shape and serves any number of matches (engine/register/match_shape.h).
+/// preprocessed shape and serves any number of matches (engine/register/match_shape.h). A shape matched with its own mirror image, source
+/// and target being made of the same object and the orientation reverse, gives its intrinsic bilateral symmetry; the quality then has
+/// "involution_mean" and "involution_max" (engine/evaluate/involution.h). [section 5.2]
 /// @throws EngineError(cancelled, invalid_parameter)
 [[nodiscard]] MatchResult match(const MatchShape& source, const MatchShape& target, const MatchParameters& parameters = {},
                                 const Progress& progress = {}, int threads = 2);

@@ -1,0 +1,115 @@
+// A shape matched with its own mirror image, against the symmetry that it was made with.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/engine.h"
+#include "engine/mesh/repair.h"
+#include "tests/support/meshes.h"
+#include "tests/support/surface_checks.h"
+
+namespace spherematch {
+namespace {
+
+/// A trunk with a head, a tail, and legs in pairs of which the front ones are longer: symmetric in y and in nothing else. An icosphere is
+/// symmetric in y as well, so that every vertex has a partner.
+TriMesh beast(int subdivisions) {
+  TriMesh mesh = test::icosphere(subdivisions);
+  const Eigen::Vector3d limbs[] = {{1, 0, 0.4}, {-1, 0, 0.1}, {0.6, 0.6, -0.6}, {0.6, -0.6, -0.6}, {-0.6, 0.5, -0.7}, {-0.6, -0.5, -0.7}};
+  const double lengths[] = {0.9, 0.5, 1.1, 1.1, 0.8, 0.8};
+  for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Eigen::Vector3d at = mesh.vertices.row(v);
+    double radius = 1;
+    for (std::size_t i = 0; i < 6; ++i) radius += lengths[i] * std::exp(-12 * (1 - at.dot(limbs[i].normalized())));
+    mesh.vertices.row(v) *= radius;
+  }
+  return mesh;
+}
+
+/// Twisted about x and bent about z: the left side in another pose than the right, with lengths nearly as they were.
+TriMesh posed(TriMesh mesh) {
+  for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+    const double x = mesh.vertices(v, 0), y = mesh.vertices(v, 1), z = mesh.vertices(v, 2), twist = 0.15 * x, bend = 0.12 * x;
+    const double u = std::cos(twist) * y - std::sin(twist) * z, w = std::sin(twist) * y + std::cos(twist) * z;
+    mesh.vertices.row(v) << std::cos(bend) * x - std::sin(bend) * u, std::sin(bend) * x + std::cos(bend) * u, w;
+  }
+  return mesh;
+}
+
+class Symmetry : public ::testing::Test {
+ protected:
+  static PreprocessedShape prepared(const TriMesh& mesh) {
+    PreprocessParameters parameters;
+    parameters.conformal_steps = 20;
+    parameters.authalic_resolution = 64;
+    parameters.authalic_steps = 20;
+    parameters.eigenpairs = 60;
+    parameters.signal_resolution = 32;
+    return preprocess(repair(test::polygons(mesh), RepairMode::none), parameters);
+  }
+  static MatchResult symmetry(const MatchShape& shape, int threads = 2) {
+    MatchParameters parameters;
+    parameters.orientation = Orientation::reverse;
+    parameters.flow_times = {0.5, 0.25};
+    return match(shape, shape, parameters, {}, threads);
+  }
+  static std::shared_ptr<const PreprocessedShape> shared(PreprocessedShape shape) {
+    return std::make_shared<const PreprocessedShape>(std::move(shape));
+  }
+  static double quality(const MatchResult& result, const std::string& name) {
+    const auto found = std::find_if(result.quality.begin(), result.quality.end(), [&](const auto& figure) { return figure.first == name; });
+    EXPECT_NE(found, result.quality.end()) << name;
+    return found == result.quality.end() ? std::nan("") : found->second;
+  }
+  [[nodiscard]] std::int32_t partner(std::int32_t vertex) const {
+    std::int32_t best = 0;
+    const Eigen::RowVector3d place = rest_.vertices.row(vertex).cwiseProduct(Eigen::RowVector3d(1, -1, 1));
+    EXPECT_LT((rest_.vertices.rowwise() - place).rowwise().squaredNorm().minCoeff(&best), 1e-20);
+    return best;
+  }
+  /// Along the surface, against the partner of each vertex.
+  [[nodiscard]] double error(const MatchResult& result, const Surface& surface) const {
+    std::vector<Landmark> truth;
+    for (std::int32_t v = 0; v < surface.uploaded_vertices(); v += 7) truth.push_back({v, partner(v)});
+    return evaluate(result.map, surface, truth).mean;
+  }
+
+  const TriMesh rest_ = beast(3);
+};
+
+TEST_F(Symmetry, OfABodyAtRestAndInAPose) {
+  for (const TriMesh& mesh : {rest_, posed(rest_), test::transformed(posed(rest_), 3, test::some_rotation(), {1, 2, 3})}) {
+    const MatchShape shape(shared(prepared(mesh)));
+    const MatchResult result = symmetry(shape);
+    EXPECT_TRUE(result.reversed);
+    EXPECT_LT(error(result, shape.surface()), 0.03);
+    EXPECT_LT(quality(result, "involution_mean"), 0.015);
+    EXPECT_GE(quality(result, "involution_max"), quality(result, "involution_mean"));
+  }
+}
+
+TEST_F(Symmetry, IsTheSameAtAnyNumberOfThreads) {
+  const MatchShape shape(shared(prepared(posed(rest_))));
+  const MatchResult one = symmetry(shape, 1), two = symmetry(shape, 2);
+  EXPECT_EQ(one.map.vertex, two.map.vertex);
+  EXPECT_EQ(one.map.bary, two.map.bary);
+  EXPECT_EQ(one.quality, two.quality);
+}
+
+TEST_F(Symmetry, OnlyAShapeWithItselfReversedIsAnInvolution) {
+  const auto has_residual = [](const MatchResult& result) {
+    return std::any_of(result.quality.begin(), result.quality.end(), [](const auto& figure) { return figure.first == "involution_mean"; });
+  };
+  const PreprocessedShape shape = prepared(rest_), other = prepared(posed(rest_));
+  MatchParameters parameters;
+  parameters.flow_times = {0.5, 0.25};
+  EXPECT_FALSE(has_residual(match(shape, shape, parameters)));
+  parameters.orientation = Orientation::reverse;
+  EXPECT_TRUE(has_residual(match(shape, shape, parameters)));
+  EXPECT_FALSE(has_residual(match(shape, other, parameters)));
+}
+
+}  // namespace
+}  // namespace spherematch
