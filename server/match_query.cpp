@@ -49,6 +49,12 @@ MatchQuery match_query_of(const RequestParameters& parameters) {
   return query;
 }
 
+MatchQuery symmetry_query_of(const std::string& shape, const RequestParameters& parameters) {
+  MatchQuery query{.src = shape, .tgt = shape, .parameters = match_parameters_of(parameters.choice("method", methods), "reverse")};
+  query.parameters.hints = hints_of(parameters.text("hints").value_or(""));
+  return query;
+}
+
 MatchService::Cache cache_of(const RequestParameters& parameters) {
   return parameters.choice("cache", cache_modes) == "no" ? MatchService::Cache::bypass : MatchService::Cache::use;
 }

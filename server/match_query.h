@@ -1,6 +1,7 @@
 // The parameters of a request that determine a match: the same for every route that needs a map.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "api/types.h"
@@ -11,6 +12,10 @@ namespace spherematch {
 
 /// Reads src, tgt, method, orientation and hints. @throws ProblemError(invalid_parameter)
 [[nodiscard]] MatchQuery match_query_of(const RequestParameters& parameters);
+
+/// The query for the symmetry of a shape, its match with its own mirror image. Reads method and hints.
+/// @throws ProblemError(invalid_parameter)
+[[nodiscard]] MatchQuery symmetry_query_of(const std::string& shape, const RequestParameters& parameters);
 
 /// Reads cache. @throws ProblemError(invalid_parameter)
 [[nodiscard]] MatchService::Cache cache_of(const RequestParameters& parameters);

@@ -192,7 +192,9 @@ MatchPointer MatchService::compute(const MatchQuery& query, std::stop_source& st
   const Progress progress{.report = {}, .stop = stop.get_token()};
   progress.check();
   const PreparedParts parts = query.parameters.mesh_flow ? PreparedParts::all : PreparedParts::without_eigenbasis;
-  const ShapePointer source = shapes_.load(query.src, parts), target = shapes_.load(query.tgt, parts);
+  const ShapePointer source = shapes_.load(query.src, parts);
+  // One object where one shape is matched with itself: the engine then knows that it looks for a symmetry.
+  const ShapePointer target = query.tgt == query.src ? source : shapes_.load(query.tgt, parts);
   return std::make_shared<const MatchResult>(engine_.match(source, target, query.parameters, progress));
 }
 

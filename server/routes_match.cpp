@@ -1,4 +1,4 @@
-// GET /match: the map between two shapes.
+// GET /match: the map between two shapes. GET /shapes/{id}/symmetry: that of a shape to its mirror image.
 #include <array>
 #include <optional>
 #include <utility>
@@ -40,23 +40,35 @@ struct MatchRequest {
   std::int32_t n_tgt = 0;  ///< vertices of the target
 };
 
-MatchRequest parse(const HttpRequest& from) {
-  const RequestParameters parameters(from, {"src", "tgt", "format", "fields", "wait", "cache", "method", "orientation", "hints", "both"});
+/// What both routes read of how to answer a query.
+MatchRequest request_for(MatchQuery query, const HttpRequest& from, const RequestParameters& parameters) {
   MatchRequest request;
-  request.query = match_query_of(parameters);
+  request.query = std::move(query);
   request.representation = &choose_representation(parameters.text("format"), from.header("accept"), representations);
   const std::string_view format = request.representation->format;
   if (const auto fields = parameters.text("fields")) {
     if (format != "json") throw ProblemError(api::Code::invalid_parameter, "fields: applies to JSON only; the other formats are whole");
     request.fields = parse_fields(*fields);
   }
-  request.query.parameters.both = parameters.choice("both", no_or_yes) == "yes";
-  if (request.query.parameters.both && format != "json" && format != "npz") {
-    throw ProblemError(api::Code::invalid_parameter, "both: applies to json and npz only; ask for the other direction by itself");
-  }
   request.wait = parameters.seconds("wait", 30, max_wait_seconds);
   request.cache = cache_of(parameters);
   return request;
+}
+
+MatchRequest parse_match(const HttpRequest& from) {
+  const RequestParameters parameters(from, {"src", "tgt", "format", "fields", "wait", "cache", "method", "orientation", "hints", "both"});
+  MatchRequest request = request_for(match_query_of(parameters), from, parameters);
+  request.query.parameters.both = parameters.choice("both", no_or_yes) == "yes";
+  const std::string_view format = request.representation->format;
+  if (request.query.parameters.both && format != "json" && format != "npz") {
+    throw ProblemError(api::Code::invalid_parameter, "both: applies to json and npz only; ask for the other direction by itself");
+  }
+  return request;
+}
+
+MatchRequest parse_symmetry(const HttpRequest& from) {
+  const RequestParameters parameters(from, {"format", "fields", "wait", "cache", "method", "hints"});
+  return request_for(symmetry_query_of(from.id, parameters), from, parameters);
 }
 
 /// What an answer needs besides the map, read before the match: a shape that is removed meanwhile then does not spoil the end.
@@ -100,8 +112,7 @@ HttpResponse compute(const ServerContext& context, const MatchRequest& request) 
           .headers = {{"Server-Timing", server_timing(answer)}}};
 }
 
-HttpResponse get_match(const ServerContext& context, const HttpRequest& from) {
-  MatchRequest request = parse(from);
+HttpResponse answer(const ServerContext& context, const HttpRequest& from, MatchRequest request) {
   context.match_service.require_room(request.query, request.cache);
   const auto src = context.shapes.require_usable(request.query.src);
   const auto tgt = context.shapes.require_usable(request.query.tgt);
@@ -115,7 +126,8 @@ HttpResponse get_match(const ServerContext& context, const HttpRequest& from) {
 }  // namespace
 
 void add_match_routes(Router& router, const ServerContext& context) {
-  router.add("GET", "/match", [&context](HttpRequest& request) { return get_match(context, request); });
+  router.add("GET", "/match", [&context](HttpRequest& from) { return answer(context, from, parse_match(from)); });
+  router.add("GET", "/shapes/{id}/symmetry", [&context](HttpRequest& from) { return answer(context, from, parse_symmetry(from)); });
 }
 
 }  // namespace spherematch

@@ -50,7 +50,8 @@ class OpenApiTest(support.TestCase):
         for method, path, body, rest in (('get', '/shapes', None, ''), ('get', '/jobs', None, ''), ('get', '/match', None, pair),
                                          ('get', '/scene', None, pair), ('post', '/transfer', array, pair),
                                          ('post', '/shapes', b'x', ''), ('get', '/shapes/{id}/mesh', None, ''),
-                                         ('get', '/shapes/{id}/sphere', None, ''), ('get', '/shapes/{id}/hks', None, '')):
+                                         ('get', '/shapes/{id}/sphere', None, ''), ('get', '/shapes/{id}/hks', None, ''),
+                                         ('get', '/shapes/{id}/symmetry', None, '')):
             checker.check_values(method, path, self.target(path), body, rest)
 
     def walk(self, checker):
@@ -78,7 +79,8 @@ class OpenApiTest(support.TestCase):
         self.assertEqual((changed.json()['name'], changed.json()['tags']), ('d', ['z']))
         self.assertEqual(call('patch', '/shapes/{id}', '/shapes/' + c, b'{}', {'If-Match': one.headers['ETag']}).status, 412)
         call('patch', '/shapes/{id}', '/shapes/' + c, b'[')
-        for part, formats in (('mesh', ('original', 'off', 'obj', 'ply', 'stl', 'glb', 'x')), ('sphere', ('npy', 'ply')), ('hks', ('npz', 'npy'))):
+        for part, formats in (('mesh', ('original', 'off', 'obj', 'ply', 'stl', 'glb', 'x')), ('sphere', ('npy', 'ply')), ('hks', ('npz', 'npy')),
+                              ('symmetry', ('json', 'npz', 'npy', 'txt', 'ply', 'glb', 'obj', 'png'))):
             path = '/shapes/{id}/' + part
             for name in formats:
                 call('get', path, f'/shapes/{a}/{part}?format={name}')

@@ -28,6 +28,17 @@ TEST(MatchQuery, ReadsWhatDeterminesAMatch) {
   EXPECT_EQ(parse({{"hints", "12:40,0:3"}}).parameters.hints, (std::vector<Hint>{{12, 40}, {0, 3}}));
 }
 
+TEST(MatchQuery, ASymmetryIsOfOneShapeAndItsMirrorImage) {
+  HttpRequest request;
+  request.query = {{"method", "paper"}, {"hints", "1:2"}};
+  const MatchQuery query = symmetry_query_of("s", RequestParameters(request, {"method", "hints"}));
+  EXPECT_EQ(query.src, "s");
+  EXPECT_EQ(query.tgt, "s");
+  EXPECT_EQ(query.parameters.orientation, Orientation::reverse);
+  EXPECT_TRUE(query.parameters.paper_selection);
+  EXPECT_EQ(query.parameters.hints, (std::vector<Hint>{{1, 2}}));
+}
+
 TEST(MatchQuery, RefusesWhatItDoesNotKnow) {
   std::string many = "1:1";
   for (int i = 0; i < 64; ++i) many += ",1:1";

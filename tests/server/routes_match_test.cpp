@@ -128,6 +128,56 @@ TEST_F(RoutesMatch, MethodSelectsTheParameters) {
   EXPECT_NE(header(match({{"method", "paper"}}), "ETag"), header(match(), "ETag"));
 }
 
+TEST_F(RoutesMatch, TheSymmetryIsTheMatchWithTheMirrorImage) {
+  const std::string path = "/shapes/" + src + "/symmetry";
+  const auto symmetry = api::from_text<api::Match>(get(path, {{"fields", "vertex,bary"}}).body);
+  EXPECT_EQ(symmetry.src, src);
+  EXPECT_EQ(symmetry.tgt, src);
+  EXPECT_EQ(symmetry.n_tgt, 5);
+  EXPECT_EQ(symmetry.orientation, "reverse");
+  EXPECT_EQ(symmetry.vertex->size(), 5U);
+  EXPECT_TRUE(symmetry.bary && !symmetry.corners);
+  EXPECT_FALSE(symmetry.cached);
+  EXPECT_TRUE(engine.same_shape);
+
+  // One result, under either name, in every format.
+  const std::multimap<std::string, std::string> as_match{{"src", src}, {"tgt", src}, {"orientation", "reverse"}};
+  for (const char* format : {"json", "npz", "npy", "txt", "ply", "glb", "obj", "png"}) {
+    auto query = as_match;
+    query.emplace("format", format);
+    const HttpResponse by_name = get(path, {{"format", format}}), by_match = get("/match", query);
+    EXPECT_EQ(by_name.status, 200) << by_name.body;
+    EXPECT_EQ(by_name.body, by_match.body) << format;
+    EXPECT_EQ(header(by_name, "ETag"), header(by_match, "ETag"));
+  }
+  EXPECT_EQ(engine.matches, 1);
+  const std::string tag = header(get(path), "ETag");
+  EXPECT_EQ(call({.method = "GET", .path = path, .query = {}, .body = {}, .file_name = {}, .headers = {{"if-none-match", tag}}}).status,
+            304);
+  EXPECT_EQ(get(path, {{"cache", "no"}}).status, 200);
+  EXPECT_EQ(engine.matches, 2);
+  EXPECT_EQ(get(path, {{"hints", "0:1"}}).status, 200);
+  EXPECT_EQ(get(path, {{"method", "paper"}}).status, 200);
+  EXPECT_EQ(engine.matches, 4);
+}
+
+TEST_F(RoutesMatch, ASymmetryIsRefusedLikeAMatch) {
+  const std::string path = "/shapes/" + src + "/symmetry";
+  for (const auto& [name, value] : {std::pair("bogus", "1"), std::pair("src", "x"), std::pair("orientation", "any"),
+                                    std::pair("both", "yes"), std::pair("format", "exe"), std::pair("hints", "1")}) {
+    EXPECT_EQ(problem_code(get(path, {{name, value}})), api::Code::invalid_parameter) << name;
+  }
+  EXPECT_EQ(problem_code(get(path, {{"format", "npz"}, {"fields", "bary"}})), api::Code::invalid_parameter);
+  EXPECT_EQ(problem_code(get("/shapes/" + std::string(32, '0') + "/symmetry")), api::Code::not_found);
+  EXPECT_EQ(problem_code(get("/shapes/" + shape(post("sphere hopeless")).id + "/symmetry")), api::Code::shape_failed);
+  engine.hold_preparation = true;
+  const std::string unfinished = shape(post("sphere c", {})).id;
+  EXPECT_EQ(problem_code(get("/shapes/" + unfinished + "/symmetry", {{"wait", "0"}})), api::Code::shape_not_ready);
+  engine.hold_preparation = false;
+  EXPECT_EQ(get("/shapes/" + unfinished + "/symmetry").status, 200);
+  EXPECT_EQ(engine.matches, 1);
+}
+
 TEST_F(RoutesMatch, ATagSparesTheComputation) {
   const std::string tag = header(match({{"format", "npz"}}), "ETag");
   EXPECT_EQ(engine.matches, 1);

@@ -22,7 +22,8 @@ class StubEngine final : public EnginePort {
   std::atomic<int> cancellations = 0;
   std::atomic<int> lose_next = 0;  ///< so many preparations end as if their process had crashed
   std::atomic<bool> no_memory = false;
-  mutable std::atomic<int> matches = 0;  ///< started
+  mutable std::atomic<int> matches = 0;          ///< started
+  mutable std::atomic<bool> same_shape = false;  ///< the last match was of one object with itself
   std::string version_text = "stub-1";
   mutable std::string mesh_name;  ///< that read_mesh() got last; for tests of one thread
 
@@ -87,6 +88,7 @@ class StubEngine final : public EnginePort {
                                   const Progress& progress) const override {
     const PreprocessedShape &source = *source_shape, &target = *target_shape;
     ++matches;
+    same_shape = source_shape == target_shape;
     while (hold_matches) {
       progress.check();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -104,6 +106,7 @@ class StubEngine final : public EnginePort {
     }
     if (parameters.both) result.reverse = result.map;  // the two shapes are of one size
     result.candidates = {{{1, 0, 0, 0, 1, 0, 0, 0, 1}, 0.9, parameters.paper_selection ? 1.0 : 0.0, true}};
+    result.reversed = parameters.orientation == Orientation::reverse;
     result.quality = {{"coverage", 1}};
     result.seconds = {{"rotation", 0.125}, {"total", 0.125}};
     return result;
