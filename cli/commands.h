@@ -54,11 +54,15 @@ struct EvaluateOptions {
 
 void add_prepare_options(CLI::App& command, PrepareOptions& options);
 void add_match_options(CLI::App& command, MatchOptions& options);
+/// `options.source` becomes the one mesh.
+void add_symmetry_options(CLI::App& command, MatchOptions& options);
 void add_evaluate_options(CLI::App& command, EvaluateOptions& options);
 
 /// Returns an ExitCode. A mesh that fails does not keep the others from being prepared.
 int run_prepare(const PrepareOptions& options);
 int run_match(const MatchOptions& options);
+/// The match of the source with its own mirror image.
+int run_symmetry(MatchOptions options);
 int run_evaluate(const EvaluateOptions& options);
 
 // For all (main.cpp).

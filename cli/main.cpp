@@ -37,10 +37,14 @@ int run(int argc, const char* const* argv) {
   MatchOptions match_options;
   CLI::App& match = *app.add_subcommand("match", "Map the vertices of one mesh to another");
   add_match_options(match, match_options);
+  MatchOptions symmetry_options;
+  CLI::App& symmetry =
+      *app.add_subcommand("symmetry", "Map the vertices of a mesh to their mirror images, left to right, on the same mesh");
+  add_symmetry_options(symmetry, symmetry_options);
   EvaluateOptions evaluate_options;
   CLI::App& evaluate = *app.add_subcommand("evaluate", "Measure a map against ground truth, along the target's surface");
   add_evaluate_options(evaluate, evaluate_options);
-  for (CLI::App* command : {&prepare, &match, &evaluate}) command->footer(footer);
+  for (CLI::App* command : {&prepare, &match, &symmetry, &evaluate}) command->footer(footer);
 
   try {
     app.parse(argc, argv);
@@ -48,6 +52,7 @@ int run(int argc, const char* const* argv) {
     return app.exit(error) == 0 ? exit_success : exit_usage;
   }
   if (prepare.parsed()) return run_prepare(prepare_options);
+  if (symmetry.parsed()) return run_symmetry(symmetry_options);
   return match.parsed() ? run_match(match_options) : run_evaluate(evaluate_options);
 }
 

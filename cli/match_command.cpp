@@ -60,11 +60,8 @@ void write_map(const ShapeStore& store, const MatchOptions& options, const Corre
   write_file(options.output, encode_map(format, map, source.shape->surface, target.shape->surface, std::move(source_mesh)));
 }
 
-}  // namespace
-
-void add_match_options(CLI::App& command, MatchOptions& options) {
-  command.add_option("SRC", options.source, "Source mesh: the map has one entry for each of its vertices")->required();
-  command.add_option("TGT", options.target, "Target mesh")->required();
+/// Those that do not depend on whether there are one or two meshes.
+void add_shared_options(CLI::App& command, MatchOptions& options) {
   command.add_option("-o,--output", options.output, "Where to write the map or its picture: " + supported_extensions())
       ->check([](const std::string& file) {
         return output_format_of(file) ? std::string()
@@ -74,16 +71,30 @@ void add_match_options(CLI::App& command, MatchOptions& options) {
       ->check(CLI::IsMember({"default", "paper"}))
       ->capture_default_str();
   command
-      .add_option("--orientation", options.orientation,
-                  "Match the source as it is, its mirror image (left bone to right bone), or whichever scores better")
-      ->check(CLI::IsMember({"preserve", "reverse", "any"}))
-      ->capture_default_str();
-  command
       .add_option_function<std::string>(
           "--hints", [&options](const std::string& text) { options.hints = hints_of(text); },
           "Vertices that correspond, numbered from 0, as SOURCE:TARGET,SOURCE:TARGET,...")
       ->type_name("TEXT");
   add_common_options(command, options);
+}
+
+}  // namespace
+
+void add_match_options(CLI::App& command, MatchOptions& options) {
+  command.add_option("SRC", options.source, "Source mesh: the map has one entry for each of its vertices")->required();
+  command.add_option("TGT", options.target, "Target mesh")->required();
+  command
+      .add_option("--orientation", options.orientation,
+                  "Match the source as it is, its mirror image (left bone to right bone), or whichever scores better")
+      ->check(CLI::IsMember({"preserve", "reverse", "any"}))
+      ->capture_default_str();
+  add_shared_options(command, options);
+}
+
+void add_symmetry_options(CLI::App& command, MatchOptions& options) {
+  command.add_option("MESH", options.source, "Mesh: the map has one entry for each of its vertices, a place on the mesh itself")
+      ->required();
+  add_shared_options(command, options);
 }
 
 int run_match(const MatchOptions& options) {
@@ -92,7 +103,8 @@ int run_match(const MatchOptions& options) {
   try {
     const Preparation source = prepare_side(store, options.source, options);
     subject = options.target;
-    const Preparation target = prepare_side(store, options.target, options);
+    // One object where a mesh is matched with itself: the engine then knows that it looks for a symmetry.
+    const Preparation target = options.target == options.source ? source : prepare_side(store, options.target, options);
     subject = "match";
     const MatchResult result = match(*source.shape, *target.shape, parameters_of(options), {}, options.threads);
     print_result(result);
@@ -104,6 +116,12 @@ int run_match(const MatchOptions& options) {
   } catch (...) {
     return report_current_exception(subject);
   }
+}
+
+int run_symmetry(MatchOptions options) {
+  options.target = options.source;
+  options.orientation = "reverse";
+  return run_match(options);
 }
 
 }  // namespace spherematch

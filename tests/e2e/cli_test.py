@@ -82,6 +82,22 @@ class CliTest(support.TestCase):
         self.assertEqual(outside.returncode, 3)
         self.assertIn('vertex 162 of the source does not exist', outside.stderr)
 
+    def test_symmetry(self):
+        done = self.run_cli('symmetry', 'a.off', '--store', self.store, '-o', 'map.npz')
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        self.assertEqual(done.stdout.count('a.off: '), 1)
+        self.assertIn("match of the source's mirror image", done.stdout)
+        self.assertRegex(done.stdout, r'quality: involution_mean 0\.\d+\n')
+        server = self.serve(self.store)
+        with open(self.place + '/a.off', 'rb') as file:
+            shape = server.ready(file.read())
+        for extension in ('npz', 'npy', 'txt', 'ply', 'glb', 'obj', 'png'):
+            done = self.run_cli('symmetry', 'a.off', '--store', self.store, '-o', 'map.' + extension, '--hints', '3:4')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with open(f'{self.place}/map.{extension}', 'rb') as file:
+                self.assertEqual(file.read(), server.get(f'/shapes/{shape}/symmetry', format=extension, hints='3:4').body, extension)
+        self.assertEqual(self.run_cli('symmetry', 'a.off', '--orientation', 'any', '--store', self.store).returncode, 2)
+
     def test_simplify(self):
         with open(self.place + '/fine.off', 'wb') as file:
             file.write(support.off(support.bumpy(4, 0.0)))
@@ -143,7 +159,7 @@ class CliTest(support.TestCase):
         self.assertIn('a.off: 162 vertices', fails(3, 'torus.off', 'prepare', 'torus.off', 'a.off', '--store', self.store).stdout)
 
     def test_help(self):
-        for arguments in (['--help'], ['prepare', '--help'], ['match', '--help'], ['evaluate', '--help']):
+        for arguments in (['--help'], ['prepare', '--help'], ['match', '--help'], ['symmetry', '--help'], ['evaluate', '--help']):
             done = self.run_cli(*arguments)
             self.assertEqual(done.returncode, 0)
             self.assertIn('Exit codes', done.stdout)
