@@ -38,15 +38,20 @@ void add_given(Query& query, const std::string& name, const std::optional<std::s
   if (value) query.emplace_back(name, *value);
 }
 
-Query match_query(const std::string& src, const std::string& tgt, const MatchOptions& options) {
-  Query query{
-      {"src", src}, {"tgt", tgt}, {"wait", seconds(longest_wait)}, {"method", options.method}, {"orientation", options.orientation}};
+Query symmetry_query(const MatchOptions& options) {
+  Query query{{"wait", seconds(longest_wait)}, {"method", options.method}};
   std::string hints;
   for (const auto& [source, target] : options.hints) {
     hints.append(hints.empty() ? "" : ",").append(std::to_string(source)).append(":").append(std::to_string(target));
   }
   if (!hints.empty()) query.emplace_back("hints", hints);
   if (!options.cache) query.emplace_back("cache", "no");
+  return query;
+}
+
+Query match_query(const std::string& src, const std::string& tgt, const MatchOptions& options) {
+  Query query = symmetry_query(options);
+  query.insert(query.end(), {{"src", src}, {"tgt", tgt}, {"orientation", options.orientation}});
   return query;
 }
 
@@ -147,6 +152,21 @@ std::string Client::match_file(const std::string& src, const std::string& tgt, c
   query.emplace_back("format", format);
   if (options.both) query.emplace_back("both", "yes");
   return transport_->send(get("/match", std::move(query), longest_wait));
+}
+
+Map Client::symmetry(const std::string& id, const MatchOptions& options) const { return decode_map(symmetry_file(id, "npz", options)); }
+
+api::Match Client::symmetry_info(const std::string& id, const MatchOptions& options) const {
+  Query query = symmetry_query(options);
+  query.emplace_back("format", "json");
+  query.emplace_back("fields", "");
+  return parse<api::Match>(transport_->send(get("/shapes/" + id + "/symmetry", std::move(query), longest_wait)));
+}
+
+std::string Client::symmetry_file(const std::string& id, const std::string& format, const MatchOptions& options) const {
+  Query query = symmetry_query(options);
+  query.emplace_back("format", format);
+  return transport_->send(get("/shapes/" + id + "/symmetry", std::move(query), longest_wait));
 }
 
 api::PointMatch Client::match_points(const api::MatchRequest& request) const {

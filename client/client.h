@@ -81,6 +81,11 @@ class Client {
   /// The bytes of a file: "npz", "npy", "txt", "ply", "glb", "obj" or "png".
   [[nodiscard]] std::string match_file(const std::string& src, const std::string& tgt, const std::string& format,
                                        const MatchOptions& options = {}) const;
+  /// The intrinsic bilateral symmetry of a shape, a map to itself, in the same three forms. Of the options, orientation and both have no
+  /// meaning here.
+  [[nodiscard]] Map symmetry(const std::string& id, const MatchOptions& options = {}) const;
+  [[nodiscard]] api::Match symmetry_info(const std::string& id, const MatchOptions& options = {}) const;
+  [[nodiscard]] std::string symmetry_file(const std::string& id, const std::string& format, const MatchOptions& options = {}) const;
   [[nodiscard]] api::PointMatch match_points(const api::MatchRequest& request) const;
   /// Rows of `columns` numbers for each vertex of tgt, row after row, become rows for each vertex of src.
   /// `interpolation` is "linear" or "nearest". @throws std::invalid_argument when the values are no whole rows

@@ -127,6 +127,26 @@ TEST_F(ClientTest, ParametersAndKeysArrive) {
   EXPECT_EQ(body, "mesh");
 }
 
+TEST_F(ClientTest, ASymmetryIsAskedForByItsShape) {
+  std::string target;
+  api::Match match;
+  match.src = match.tgt = "s";
+  match.quality = {{"involution_mean", 0.25}};
+  server.Get("/shapes/s/symmetry", [&](const httplib::Request& request, httplib::Response& response) {
+    target = request.target;
+    response.set_content(api::to_text(api::to_json(match)), "application/json");
+  });
+  start();
+  MatchOptions options;
+  options.hints = {{1, 2}};
+  options.cache = false;
+  EXPECT_EQ(client().symmetry_info("s", options), match);
+  EXPECT_EQ(target, "/shapes/s/symmetry?wait=60.000000&method=default&hints=1%3A2&cache=no&format=json&fields=");
+  (void)client().symmetry_file("s", "ply");
+  EXPECT_EQ(target, "/shapes/s/symmetry?wait=60.000000&method=default&format=ply");
+  EXPECT_THROW((void)client().symmetry("s"), FormatError);  // JSON is no NPZ
+}
+
 TEST_F(ClientTest, ResultsGoOnWhereTheyBrokeOff) {
   const auto line = [](std::int32_t index) {
     api::PairResult result{index, "a", "b", {}, {}};

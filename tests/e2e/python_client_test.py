@@ -15,6 +15,11 @@ import spherematch  # noqa: E402
 A, B = support.bumpy(2), support.bumpy(2, 1.0)
 
 
+def _area(vertices, faces):
+    corners = np.array(vertices)[np.array(faces)]
+    return np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
+
+
 class PythonClientTest(support.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -65,6 +70,19 @@ class PythonClientTest(support.TestCase):
         self.assertTrue(self.client.match_file(self.a, self.b, 'png').startswith(b'\x89PNG'))
         self.assertTrue(self.client.scene(self.a, self.b).startswith(b'glTF'))
         self.assertEqual(len(self.client.match(self.a, self.b, hints=[(0, 0), (5, 5)])), 162)
+
+    def test_symmetry(self):
+        symmetry = self.client.symmetry(self.a)
+        self.assertEqual((len(symmetry), symmetry.reverse), (162, None))
+        self.assertTrue((symmetry.vertex == self.client.match(self.a, self.a, orientation='reverse').vertex).all())
+        info = self.client.symmetry_info(self.a)
+        self.assertEqual((info['src'], info['tgt'], info['orientation']), (self.a.id, self.a.id, 'reverse'))
+        twice = symmetry.apply(symmetry.points(A[0])) - np.array(A[0])
+        self.assertTrue(info['cached'])
+        self.assertGreaterEqual(info['quality']['involution_max'], info['quality']['involution_mean'])
+        area = _area(*A)
+        self.assertAlmostEqual(np.linalg.norm(twice, axis=1).max() / area**0.5, info['quality']['involution_max'], places=5)
+        self.assertTrue(self.client.symmetry_file(self.a, 'png').startswith(b'\x89PNG'))
 
     def test_points_and_transfer(self):
         image, = self.client.match_points(self.a, self.b, points=[7])

@@ -164,6 +164,20 @@ class Client:
         query = {'src': _id(source), 'tgt': _id(target), 'fields': '', 'wait': _LONGEST_WAIT, **options}
         return self._http.json('GET', '/match', query, extra_time=_LONGEST_WAIT)
 
+    def symmetry(self, shape, hints=None, method=None, cache=None):
+        """The intrinsic bilateral symmetry of a shape, a map to itself. `hints` are pairs of vertices that mirror each other."""
+        return Match(meshes.load(self.symmetry_file(shape, 'npz', hints, method, cache)))
+
+    def symmetry_file(self, shape, format, hints=None, method=None, cache=None):
+        """The same as the bytes of a file: npz, npy, txt, ply, glb, obj, png or json."""
+        query = {'format': format, 'hints': _hints(hints), 'method': method, 'cache': cache, 'wait': _LONGEST_WAIT}
+        return self._http.request('GET', f'/shapes/{_id(shape)}/symmetry', query, extra_time=_LONGEST_WAIT)[2]
+
+    def symmetry_info(self, shape, **options):
+        """What there is to know of a symmetry besides its arrays: quality, with the distance by which it fails to undo itself."""
+        query = {'fields': '', 'wait': _LONGEST_WAIT, **options}
+        return self._http.json('GET', f'/shapes/{_id(shape)}/symmetry', query, extra_time=_LONGEST_WAIT)
+
     def match_points(self, source, target, points=None, landmarks=None, orientation=None, hints=None, method=None):
         """The images of points, a list, or of landmarks, by name. A point is a vertex number, {'corners', 'bary'} or {'position'}."""
         body = {'src': _id(source), 'tgt': _id(target), 'points': points, 'landmarks': landmarks, 'orientation': orientation,
