@@ -15,6 +15,7 @@
 #include "engine/mesh/laplacian.h"
 #include "engine/mesh/repair.h"
 #include "engine/register/registration.h"
+#include "engine/spectrum/curvature.h"
 #include "engine/spectrum/eigenbasis.h"
 #include "engine/spectrum/signatures.h"
 #include "engine/sphere/authalic_evolution.h"
@@ -57,6 +58,9 @@ TriMesh unit_area(const TriMesh& mesh) {
   return result;
 }
 
+/// At this time chests and backs, feet and heels remain, and fingers do not: they seldom come to lie on each other.
+constexpr double kCurvatureTime = 0.01;
+
 constexpr double kConformalShare = 0.4;  ///< of the time of the sphere's branch
 
 struct SphereBranch {
@@ -98,9 +102,11 @@ std::vector<SignalGrid> signal_grids(const PreprocessedShape& shape, const TriMe
   for (const double time : parameters.hks_times) names.push_back(hks_name(time));
   for (const std::string& name : selection_signal_names()) names.push_back(name);
   for (const char* name : position_signal_names) names.emplace_back(name);
+  names.emplace_back(curvature_signal_name);
   Eigen::MatrixXd signatures(shape.sphere.rows(), static_cast<Eigen::Index>(names.size()));
   signatures << heat_kernel_signatures(shape.eigenvalues, shape.eigenvectors, parameters.hks_times),
-      selection_signals(shape.eigenvalues, shape.eigenvectors), mesh.vertices;
+      selection_signals(shape.eigenvalues, shape.eigenvectors), mesh.vertices,
+      smoothed_mean_curvature(mesh, shape.eigenvalues, shape.eigenvectors, kCurvatureTime);
   const std::vector<Grid> grids = rasterize_signals(shape.sphere, mesh.faces, signatures, parameters.signal_resolution);
   std::vector<SignalGrid> result;
   for (std::size_t i = 0; i < grids.size(); ++i) result.push_back({names[i], grids[i].matrix().cast<float>()});
@@ -109,7 +115,7 @@ std::vector<SignalGrid> signal_grids(const PreprocessedShape& shape, const TriMe
 
 }  // namespace
 
-std::string_view engine_version() { return "5"; }
+std::string_view engine_version() { return "6"; }
 
 Surface read_surface(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options, const ReadLimits& limits) {
   options.validate();

@@ -10,6 +10,7 @@
 #include "engine/register/optical_flow.h"
 #include "engine/register/rotation.h"
 #include "engine/register/selection.h"
+#include "engine/spectrum/curvature.h"
 #include "engine/spectrum/signatures.h"
 
 namespace spherematch {
@@ -19,6 +20,11 @@ namespace {
 constexpr double kHintWeight = 0.8;
 /// Widths of the guiding deformation in radians: wide before the coarse levels, for proportions that differ, then narrower.
 constexpr double kCoarseGuide = 1.2, kFineGuide = 0.5;
+
+/// Of the curvature signal among the selection signals, where a shape is matched with its own mirror image. There a map that turns every
+/// limb back to front, onto itself, is helped by the signals of the metric, which are exactly equal, while the right one takes a limb to
+/// another in another pose. Between different shapes backs and chests differ too much to be compared.
+constexpr double kCurvatureWeight = 0.15;
 
 constexpr int kNodes = 64;  ///< resolution of the grid on which registrations are followed and compared
 
@@ -77,12 +83,18 @@ double hint_distance(const Registration& registration, const HintDirections& hin
   return (s - t).rowwise().norm().mean() / std::sqrt(4 * std::numbers::pi);
 }
 
+/// Of the channels of PairSide::selection_channels.
+std::vector<double> selection_weights(const Pair& pair) {
+  std::vector<double> weights = selection_signal_weights();
+  weights.push_back(&pair.source.shape.shape() == &pair.target.shape.shape() ? kCurvatureWeight : 0);
+  return weights;
+}
+
 void judge(Registration& registration, const Pair& pair, int nodes) {
   const Points s = registration.source->origins(nodes), t = registration.target->origins(nodes);
   const RegisteredSignals f{pair.source.shape.signals(), pair.source.selection_channels, s};
   const RegisteredSignals g{pair.target.shape.signals(), pair.target.selection_channels, t};
-  registration.score =
-      pair.parameters.paper_selection ? paper_cost(f, g, nodes) : registration_cost(f, g, selection_signal_weights(), nodes);
+  registration.score = pair.parameters.paper_selection ? paper_cost(f, g, nodes) : registration_cost(f, g, selection_weights(pair), nodes);
   if (pair.hints.source.rows() > 0) registration.score += kHintWeight * hint_distance(registration, pair.hints);
 }
 
@@ -96,6 +108,7 @@ PairSide::PairSide(const MatchShape& match_shape, const MatchParameters& paramet
     selection_channels = {shape.channel(hks_name(0.01))};
   } else {
     for (const std::string& name : selection_signal_names()) selection_channels.push_back(shape.channel(name));
+    selection_channels.push_back(shape.channel(curvature_signal_name));
   }
   if (!parameters.elastic_iterations.empty()) {
     elastic.emplace(ElasticChannels{shape.signals(), {}, {}, selection_signal_weights()});

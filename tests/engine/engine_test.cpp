@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/mesh/laplacian.h"
+#include "engine/spectrum/curvature.h"
 #include "engine/spectrum/signatures.h"
 #include "engine/sphere/orientation.h"
 #include "tests/support/meshes.h"
@@ -74,9 +75,9 @@ void expect_prepared(const PreprocessedShape& shape, const TriMesh& mesh, const 
   EXPECT_EQ(shape.eigenvalues.size(), parameters.eigenpairs);
   EXPECT_EQ(shape.eigenvectors.rows(), mesh.vertex_count());
   EXPECT_EQ(shape.engine, engine_version());
-  ASSERT_EQ(shape.signals.size(), parameters.hks_times.size() + selection_signal_names().size() + position_signal_names.size());
+  ASSERT_EQ(shape.signals.size(), parameters.hks_times.size() + selection_signal_names().size() + position_signal_names.size() + 1);
   EXPECT_EQ(shape.signals[parameters.hks_times.size() - 1].name, "hks_0.01");
-  EXPECT_EQ(shape.signals.back().name, position_signal_names.back());
+  EXPECT_EQ(shape.signals.back().name, curvature_signal_name);
   for (const SignalGrid& signal : shape.signals) {
     EXPECT_EQ(signal.values.rows(), parameters.signal_resolution);
     EXPECT_EQ(signal.values.cols(), parameters.signal_resolution);

@@ -28,6 +28,19 @@ TriMesh beast(int subdivisions) {
   return mesh;
 }
 
+/// A long flat body with a head, a bulge on the chest and a dent of the same shape in the back. Its left side is a little wider, so that to
+/// the metric alone exchanging chest and back is hardly a worse symmetry than exchanging left and right.
+TriMesh chest_and_back(int subdivisions) {
+  TriMesh mesh = test::icosphere(subdivisions);
+  for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Eigen::RowVector3d at = mesh.vertices.row(v);
+    const double x = at[0], y = at[1], z = at[2];
+    const double bump = 0.22 * std::exp(-7 * ((x - 0.3) * (x - 0.3) + y * y)) * std::min(1.0, 3 * std::abs(z));
+    mesh.vertices.row(v) << 2 * x + 0.6 * std::exp(-12 * (1 - x)), (y > 0 ? 1.06 : 1) * 1.1 * y, 0.55 * z + bump;
+  }
+  return mesh;
+}
+
 /// Twisted about x and bent about z: the left side in another pose than the right, with lengths nearly as they were.
 TriMesh posed(TriMesh mesh) {
   for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
@@ -88,6 +101,25 @@ TEST_F(Symmetry, OfABodyAtRestAndInAPose) {
     EXPECT_LT(quality(result, "involution_mean"), 0.015);
     EXPECT_GE(quality(result, "involution_max"), quality(result, "involution_mean"));
   }
+}
+
+TEST_F(Symmetry, ExchangesSidesRatherThanChestAndBack) {
+  const TriMesh mesh = chest_and_back(3);
+  const MatchShape shape(shared(prepared(mesh)));
+  const MatchResult result = symmetry(shape);
+  const auto mean = [&](const Eigen::RowVector3d& signs) {
+    double sum = 0;
+    for (Eigen::Index v = 0; v < mesh.vertex_count(); ++v) {
+      Eigen::RowVector3d image = Eigen::RowVector3d::Zero();
+      for (int k = 0; k < 3; ++k) image += static_cast<double>(result.map.bary(v, k)) * mesh.vertices.row(result.map.corners(v, k));
+      sum += (image - mesh.vertices.row(v).cwiseProduct(signs)).norm();
+    }
+    return sum / static_cast<double>(mesh.vertex_count()) / std::sqrt(test::total_area(mesh));
+  };
+  EXPECT_LT(mean({1, -1, 1}), 0.06);
+  EXPECT_GT(mean({1, 1, -1}), 0.1);
+  // Measured: 7.6 times, and 3.5 without the curvature among what is compared.
+  EXPECT_GT(quality(result, "score_runner_up"), 5 * quality(result, "score"));
 }
 
 TEST_F(Symmetry, IsTheSameAtAnyNumberOfThreads) {
