@@ -53,7 +53,7 @@ api::Json to_json(const MatchParameters& parameters) {
   const auto& [rotation_time, rotation_bandwidth, max_candidates, candidate_separation, candidate_threshold, flow_times, flow_resolution,
                flow_iterations, flow_settled, flow_smoothness, finest_flow, flow_tolerance, flow_detail, flow_detail_from, mesh_flow,
                elastic_iterations, elastic_area, elastic_signals, elastic_longest_move, elastic_settled, fine_candidates, paper_selection,
-               orientation, hints, both] = parameters;
+               orientation, hints, both, candidate] = parameters;
   api::Json pairs = api::Json::array();
   for (const auto& [source, target] : hints) pairs.push_back({source, target});
   return {{"rotation_time", rotation_time},
@@ -80,7 +80,8 @@ api::Json to_json(const MatchParameters& parameters) {
           {"paper_selection", paper_selection},
           {"orientation", name_of(orientation)},
           {"hints", std::move(pairs)},
-          {"both", both}};
+          {"both", both},
+          {"candidate", candidate}};
 }
 
 }  // namespace spherematch

@@ -88,6 +88,7 @@ void MatchParameters::validate() const {
   require(elastic_signals >= 0 && elastic_signals <= 1e6, "elastic_signals", "must be 0 to 1000000");
   require(positive(elastic_longest_move) && elastic_longest_move <= 1, "elastic_longest_move", "must be above 0 and at most 1");
   require(elastic_settled >= 0 && elastic_settled < 1, "elastic_settled", "must be at least 0 and below 1");
+  require(candidate >= 0 && candidate < max_candidates, "candidate", "must be at least 0 and below max_candidates");
   require(hints.size() <= max_hints, "hints", "must hold at most 64 pairs");
   for (const Hint& hint : hints) require(hint.source >= 0 && hint.target >= 0, "hints", "must be vertex numbers from 0");
 }

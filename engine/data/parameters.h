@@ -100,6 +100,7 @@ struct MatchParameters {
   Orientation orientation = Orientation::preserve;
   std::vector<Hint> hints;  ///< at most max_hints; they pick and guide the candidate
   bool both = false;        ///< also the map from target to source
+  int candidate = 0;        ///< which map: of the best rotation, or of the next best ones that went through the whole flow
 
   /// @throws EngineError(invalid_parameter) naming the field and the reason
   void validate() const;

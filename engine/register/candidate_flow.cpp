@@ -127,7 +127,8 @@ std::vector<Registration> start_registrations(const Pair& pair, const std::vecto
   return registrations;
 }
 
-std::size_t flow_candidates(std::vector<Registration>& registrations, const Pair& pair, const Progress& progress, int threads) {
+std::vector<std::size_t> flow_candidates(std::vector<Registration>& registrations, const Pair& pair, const Progress& progress,
+                                         int threads) {
   const bool hinted = pair.hints.source.rows() > 0;
   std::vector<std::size_t> order(registrations.size());
   std::iota(order.begin(), order.end(), 0);
@@ -165,7 +166,7 @@ std::size_t flow_candidates(std::vector<Registration>& registrations, const Pair
     });
     std::stable_sort(order.begin(), order.end(), better);
   }
-  return order.front();
+  return order;
 }
 
 }  // namespace spherematch

@@ -48,9 +48,9 @@ struct Registration {
 [[nodiscard]] std::vector<Registration> start_registrations(const Pair& pair, const std::vector<Eigen::Matrix3d>& rotations);
 
 /// Flows the registrations, all of them through the coarse levels and the most promising ones to the end, and scores them. Returns the
-/// index of the best. Registrations are independent tasks on up to `threads` threads.
+/// indices of those that came to the end, best first. Registrations are independent tasks on up to `threads` threads.
 /// @throws EngineError(cancelled)
-[[nodiscard]] std::size_t flow_candidates(std::vector<Registration>& registrations, const Pair& pair, const Progress& progress,
-                                          int threads);
+[[nodiscard]] std::vector<std::size_t> flow_candidates(std::vector<Registration>& registrations, const Pair& pair, const Progress& progress,
+                                                       int threads);
 
 }  // namespace spherematch

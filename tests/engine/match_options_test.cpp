@@ -168,6 +168,13 @@ TEST_F(MirroredBody, AnyTakesTheBetterOfBoth) {
   }
 }
 
+double quality(const MatchResult& result, const std::string& name) {
+  for (const auto& [known, value] : result.quality)
+    if (known == name) return value;
+  ADD_FAILURE() << name;
+  return 0;
+}
+
 /// An ellipsoid looks the same to every signal in eight positions.
 class SymmetricBody : public ::testing::Test {
  protected:
@@ -210,6 +217,41 @@ TEST_F(SymmetricBody, HintsDecideBetweenTheBodyAndItsMirrorImage) {
     const MatchResult result = match(shape_, shape_, with(hints({5, 200, 400, 600}, signs), Orientation::any));
     EXPECT_EQ(result.reversed, signs.prod() < 0) << signs;
     EXPECT_LT(error(result, signs), 0.02) << signs;
+  }
+}
+
+TEST_F(SymmetricBody, TheNextBestMapsCanBeAskedFor) {
+  // Three half turns besides staying put; two of the four are followed to the end.
+  MatchParameters parameters = with({});
+  const MatchResult best = match(shape_, shape_, parameters);
+  parameters.candidate = 1;
+  const MatchResult next = match(shape_, shape_, parameters);
+  const auto nearest = [&](const MatchResult& result) {
+    int which = -1, index = 0;
+    for (const Eigen::RowVector3d& signs : {Eigen::RowVector3d(1, 1, 1), {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}) {
+      if (error(result, signs) < 0.02) which = index;
+      ++index;
+    }
+    return which;
+  };
+  EXPECT_GE(nearest(best), 0);
+  EXPECT_GE(nearest(next), 0);
+  EXPECT_NE(nearest(best), nearest(next));
+  EXPECT_GT((chosen_rotation(best) - chosen_rotation(next)).norm(), 1);
+  EXPECT_EQ(best.candidates.size(), next.candidates.size());
+  // All of them fit alike, and of a body without symmetry one does.
+  EXPECT_EQ(quality(best, "ambiguous"), 1);
+  EXPECT_EQ(quality(next, "ambiguous"), 1);
+  const PreprocessedShape creature = prepared(test::creature(3));
+  const PreprocessedShape unlike = prepared(test::creature(3));
+  EXPECT_EQ(quality(match(unlike, unlike), "ambiguous"), 0);
+  parameters.candidate = 2;
+  test::expect_refusal(ErrorCode::invalid_parameter, [&] { (void)match(shape_, shape_, parameters); });
+  parameters.fine_candidates = 3;
+  EXPECT_GE(nearest(match(shape_, shape_, parameters)), 0);
+  for (const int outside : {-1, parameters.max_candidates}) {
+    parameters.candidate = outside;
+    test::expect_refusal(ErrorCode::invalid_parameter, [&] { (void)match(shape_, shape_, parameters); });
   }
 }
 

@@ -38,6 +38,7 @@ TEST(ParametersJson, EveryFieldOfAMatchShows) {
   EXPECT_TRUE(changed(&MatchParameters::orientation, Orientation::reverse));
   EXPECT_TRUE(changed(&MatchParameters::hints, std::vector<Hint>{{1, 2}}));
   EXPECT_TRUE(changed(&MatchParameters::both, true));
+  EXPECT_TRUE(changed(&MatchParameters::candidate, 1));
 }
 
 TEST(ParametersJson, WhatTheCallerKnowsIsTold) {
