@@ -109,6 +109,7 @@ Json to_json(const Match& value) {
     write_arrays(reverse, *value.reverse);
   }
   json["orientation"] = value.orientation;
+  json["candidate"] = value.candidate;
   json["quality"] = named_numbers_json(value.quality);
   json["candidates"] = Json::array();
   for (const Candidate& candidate : value.candidates) json["candidates"].push_back(to_json(candidate));
@@ -128,6 +129,7 @@ Match read_match(const Json& json, const std::string& path) {
   read_arrays(reader, match);
   if (reader.has("reverse")) match.reverse = read_reverse(reader.member("reverse"), reader.path_of("reverse"));
   match.orientation = reader.text("orientation");
+  match.candidate = reader.count("candidate");
   match.quality = reader.named_numbers("quality");
   const std::string candidates_path = reader.path_of("candidates");
   const Json& candidates = array_at(reader.member("candidates"), candidates_path);

@@ -142,6 +142,7 @@ struct Match {
   std::optional<std::vector<std::array<float, 3>>> bary;            ///< n_src, if asked for
   std::optional<ReverseMap> reverse;                                ///< if asked for
   std::string orientation = "preserve";                             ///< or "reverse": the mirror image of src was matched
+  std::int32_t candidate = 0;                                       ///< 0: of the best rotation, 1: of the next best
   NamedNumbers quality;                                             ///< a figure that is not finite is null in JSON
   std::vector<Candidate> candidates;
   NamedNumbers seconds;

@@ -32,6 +32,12 @@ std::vector<Hint> hints_of(const std::string& text) {
   }
 }
 
+/// What every query may have, whichever way round.
+void read_choices(MatchParameters& into, const RequestParameters& from) {
+  into.hints = hints_of(from.text("hints").value_or(""));
+  into.candidate = static_cast<int>(from.integer("candidate", 0, 0, into.max_candidates - 1));
+}
+
 }  // namespace
 
 MatchParameters match_parameters_of(std::string_view method, std::string_view orientation) {
@@ -45,13 +51,13 @@ MatchQuery match_query_of(const RequestParameters& parameters) {
   query.src = parameters.required("src");
   query.tgt = parameters.required("tgt");
   query.parameters = match_parameters_of(parameters.choice("method", methods), parameters.choice("orientation", orientations));
-  query.parameters.hints = hints_of(parameters.text("hints").value_or(""));
+  read_choices(query.parameters, parameters);
   return query;
 }
 
 MatchQuery symmetry_query_of(const std::string& shape, const RequestParameters& parameters) {
   MatchQuery query{.src = shape, .tgt = shape, .parameters = match_parameters_of(parameters.choice("method", methods), "reverse")};
-  query.parameters.hints = hints_of(parameters.text("hints").value_or(""));
+  read_choices(query.parameters, parameters);
   return query;
 }
 

@@ -10,10 +10,10 @@
 
 namespace spherematch {
 
-/// Reads src, tgt, method, orientation and hints. @throws ProblemError(invalid_parameter)
+/// Reads src, tgt, method, orientation, hints and candidate. @throws ProblemError(invalid_parameter)
 [[nodiscard]] MatchQuery match_query_of(const RequestParameters& parameters);
 
-/// The query for the symmetry of a shape, its match with its own mirror image. Reads method and hints.
+/// The query for the symmetry of a shape, its match with its own mirror image. Reads method, hints and candidate.
 /// @throws ProblemError(invalid_parameter)
 [[nodiscard]] MatchQuery symmetry_query_of(const std::string& shape, const RequestParameters& parameters);
 

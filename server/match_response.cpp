@@ -61,6 +61,7 @@ api::Match match_of(const MatchQuery& query, const MatchAnswer& answer, const Ma
     select(*match.reverse, result.reverse, fields);
   }
   match.orientation = result.reversed ? "reverse" : "preserve";
+  match.candidate = query.parameters.candidate;
   match.quality = result.quality;
   for (const CandidateSummary& candidate : result.candidates) {
     match.candidates.push_back({candidate.rotation, candidate.correlation, candidate.score, candidate.chosen});

@@ -49,6 +49,7 @@ Match sample_match() {
   match.corners = {{{4, 1, 2}, {-1, -1, -1}}};
   match.bary = {{{0.1F, 0.3F, 0.6F}, {0, 0, 0}}};
   match.quality = {{"coverage", 0.5}};
+  match.candidate = 1;
   match.candidates = {{{1, 0, 0, 0, 1, 0, 0, 0, 1}, 0.9, -0.1, true}};
   match.seconds = {{"rotation", 0.25}, {"total", 1}};
   match.engine = "1.0";

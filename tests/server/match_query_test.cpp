@@ -12,7 +12,7 @@ MatchQuery parse(std::multimap<std::string, std::string> query) {
   query.emplace("src", "s");
   query.emplace("tgt", "t");
   request.query = std::move(query);
-  return match_query_of(RequestParameters(request, {"src", "tgt", "method", "orientation", "hints"}));
+  return match_query_of(RequestParameters(request, {"src", "tgt", "method", "orientation", "hints", "candidate"}));
 }
 
 TEST(MatchQuery, ReadsWhatDeterminesAMatch) {
@@ -26,6 +26,8 @@ TEST(MatchQuery, ReadsWhatDeterminesAMatch) {
   EXPECT_EQ(parse({{"orientation", "reverse"}}).parameters.orientation, Orientation::reverse);
   EXPECT_EQ(parse({{"orientation", "any"}}).parameters.orientation, Orientation::any);
   EXPECT_EQ(parse({{"hints", "12:40,0:3"}}).parameters.hints, (std::vector<Hint>{{12, 40}, {0, 3}}));
+  EXPECT_EQ(plain.parameters.candidate, 0);
+  EXPECT_EQ(parse({{"candidate", "7"}}).parameters.candidate, 7);
 }
 
 TEST(MatchQuery, ASymmetryIsOfOneShapeAndItsMirrorImage) {
@@ -48,6 +50,9 @@ TEST(MatchQuery, RefusesWhatItDoesNotKnow) {
   }
   EXPECT_THROW((void)parse({{"orientation", "mirror"}}), ProblemError);
   EXPECT_THROW((void)parse({{"method", "best"}}), ProblemError);
+  EXPECT_THROW((void)parse({{"candidate", "8"}}), ProblemError);
+  EXPECT_THROW((void)parse({{"candidate", "4"}, {"method", "paper"}}), ProblemError);
+  EXPECT_THROW((void)parse({{"candidate", "-1"}}), ProblemError);
 }
 
 TEST(MatchQuery, ServerTimingIsInMilliseconds) {

@@ -53,11 +53,14 @@ TEST(MatchResponse, OnlyTheSelectedArraysAreTaken) {
   EXPECT_EQ(all.quality, result.quality);
   EXPECT_EQ(all.seconds, result.seconds);
 
+  EXPECT_EQ(all.candidate, 0);
   query.parameters.both = true;
+  query.parameters.candidate = 1;
   result.reverse.vertex = {0, 1, 1};
   result.reversed = true;
   const api::Match both = match("vertex");
   EXPECT_EQ(both.orientation, "reverse");
+  EXPECT_EQ(both.candidate, 1);
   EXPECT_EQ(both.reverse->n_src, 3);
   EXPECT_EQ(both.reverse->n_tgt, 2);
   EXPECT_EQ(*both.reverse->vertex, (std::vector<std::int32_t>{0, 1, 1}));

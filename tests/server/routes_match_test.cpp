@@ -128,6 +128,21 @@ TEST_F(RoutesMatch, MethodSelectsTheParameters) {
   EXPECT_NE(header(match({{"method", "paper"}}), "ETag"), header(match(), "ETag"));
 }
 
+TEST_F(RoutesMatch, AnotherCandidateIsAnotherResult) {
+  const auto best = api::from_text<api::Match>(match().body), next = api::from_text<api::Match>(match({{"candidate", "1"}}).body);
+  EXPECT_EQ(best.candidate, 0);
+  EXPECT_EQ(next.candidate, 1);
+  EXPECT_EQ(engine.matches, 2);
+  EXPECT_EQ(header(match({{"candidate", "0"}}), "ETag"), header(match(), "ETag"));
+  EXPECT_NE(header(match({{"candidate", "1"}}), "ETag"), header(match(), "ETag"));
+  // The engine alone knows how many there are.
+  const HttpResponse missing = match({{"candidate", "2"}});
+  EXPECT_EQ(problem_code(missing), api::Code::invalid_parameter);
+  EXPECT_NE(missing.body.find("candidate: there is no candidate 2"), std::string::npos) << missing.body;
+  EXPECT_EQ(problem_code(match({{"candidate", "8"}})), api::Code::invalid_parameter);
+  EXPECT_EQ(get("/shapes/" + src + "/symmetry", {{"candidate", "1"}}).status, 200);
+}
+
 TEST_F(RoutesMatch, TheSymmetryIsTheMatchWithTheMirrorImage) {
   const std::string path = "/shapes/" + src + "/symmetry";
   const auto symmetry = api::from_text<api::Match>(get(path, {{"fields", "vertex,bary"}}).body);

@@ -93,6 +93,7 @@ class StubEngine final : public EnginePort {
       progress.check();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
+    if (parameters.candidate > 1) throw EngineError(ErrorCode::invalid_parameter, "candidate: there is no candidate 2");
     const std::int32_t n = source.surface.uploaded_vertices();
     MatchResult result;
     result.map.corners.setConstant(n, 3, -1);
