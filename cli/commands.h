@@ -41,6 +41,7 @@ struct MatchOptions : CommonOptions {
   std::string method = "default";
   std::string orientation = "preserve";
   std::vector<Hint> hints;
+  int candidate = 0;
 };
 
 struct EvaluateOptions {

@@ -29,6 +29,7 @@ MatchParameters parameters_of(const MatchOptions& options) {
   MatchParameters parameters = options.method == "paper" ? MatchParameters::paper() : MatchParameters{};
   parameters.orientation = orientations.at(options.orientation);
   parameters.hints = options.hints;
+  parameters.candidate = options.candidate;
   return parameters;
 }
 
@@ -75,6 +76,9 @@ void add_shared_options(CLI::App& command, MatchOptions& options) {
           "--hints", [&options](const std::string& text) { options.hints = hints_of(text); },
           "Vertices that correspond, numbered from 0, as SOURCE:TARGET,SOURCE:TARGET,...")
       ->type_name("TEXT");
+  command.add_option("--candidate", options.candidate, "Which map: 0 for that of the best rotation, 1 for the next best")
+      ->check(CLI::Range(0, MatchParameters{}.max_candidates - 1))
+      ->capture_default_str();
   add_common_options(command, options);
 }
 

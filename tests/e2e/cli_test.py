@@ -96,6 +96,10 @@ class CliTest(support.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             with open(f'{self.place}/map.{extension}', 'rb') as file:
                 self.assertEqual(file.read(), server.get(f'/shapes/{shape}/symmetry', format=extension, hints='3:4').body, extension)
+        self.assertEqual(self.run_cli('symmetry', 'a.off', '--candidate', '8', '--store', self.store).returncode, 2)
+        missing = self.run_cli('symmetry', 'a.off', '--candidate', '7', '--store', self.store)
+        self.assertEqual(missing.returncode, 3)
+        self.assertIn('there is no candidate 7', missing.stderr)
         self.assertEqual(self.run_cli('symmetry', 'a.off', '--orientation', 'any', '--store', self.store).returncode, 2)
 
     def test_simplify(self):
