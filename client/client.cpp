@@ -55,6 +55,10 @@ Query match_query(const std::string& src, const std::string& tgt, const MatchOpt
   return query;
 }
 
+void add_candidate(Query& query, const MatchOptions& options) {
+  if (options.candidate != 0) query.emplace_back("candidate", std::to_string(options.candidate));
+}
+
 Request get(std::string path, Query query = {}, std::chrono::milliseconds wait = {}) {
   return {.method = "GET", .path = std::move(path), .query = std::move(query), .body = {}, .content_type = {}, .wait = wait};
 }
@@ -141,6 +145,7 @@ Map Client::match(const std::string& src, const std::string& tgt, const MatchOpt
 
 api::Match Client::match_info(const std::string& src, const std::string& tgt, const MatchOptions& options) const {
   Query query = match_query(src, tgt, options);
+  add_candidate(query, options);
   query.emplace_back("format", "json");
   query.emplace_back("fields", "");
   return parse<api::Match>(transport_->send(get("/match", std::move(query), longest_wait)));
@@ -149,6 +154,7 @@ api::Match Client::match_info(const std::string& src, const std::string& tgt, co
 std::string Client::match_file(const std::string& src, const std::string& tgt, const std::string& format,
                                const MatchOptions& options) const {
   Query query = match_query(src, tgt, options);
+  add_candidate(query, options);
   query.emplace_back("format", format);
   if (options.both) query.emplace_back("both", "yes");
   return transport_->send(get("/match", std::move(query), longest_wait));
@@ -158,6 +164,7 @@ Map Client::symmetry(const std::string& id, const MatchOptions& options) const {
 
 api::Match Client::symmetry_info(const std::string& id, const MatchOptions& options) const {
   Query query = symmetry_query(options);
+  add_candidate(query, options);
   query.emplace_back("format", "json");
   query.emplace_back("fields", "");
   return parse<api::Match>(transport_->send(get("/shapes/" + id + "/symmetry", std::move(query), longest_wait)));
@@ -165,6 +172,7 @@ api::Match Client::symmetry_info(const std::string& id, const MatchOptions& opti
 
 std::string Client::symmetry_file(const std::string& id, const std::string& format, const MatchOptions& options) const {
   Query query = symmetry_query(options);
+  add_candidate(query, options);
   query.emplace_back("format", format);
   return transport_->send(get("/shapes/" + id + "/symmetry", std::move(query), longest_wait));
 }

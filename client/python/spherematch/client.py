@@ -149,14 +149,14 @@ class Client:
 
     # Matches
 
-    def match(self, source, target, both=False, orientation=None, hints=None, method=None, cache=None):
-        """The map from source to target. `hints` are pairs (source vertex, target vertex)."""
-        return Match(meshes.load(self.match_file(source, target, 'npz', both, orientation, hints, method, cache)))
+    def match(self, source, target, both=False, orientation=None, hints=None, method=None, cache=None, candidate=None):
+        """The map from source to target. `hints` are pairs (source vertex, target vertex). `candidate` 1 asks for the next best map."""
+        return Match(meshes.load(self.match_file(source, target, 'npz', both, orientation, hints, method, cache, candidate)))
 
-    def match_file(self, source, target, format, both=False, orientation=None, hints=None, method=None, cache=None):
+    def match_file(self, source, target, format, both=False, orientation=None, hints=None, method=None, cache=None, candidate=None):
         """The same as the bytes of a file: npz, npy, txt, ply, glb, obj, png or json."""
         query = {'src': _id(source), 'tgt': _id(target), 'format': format, 'both': 'yes' if both else None, 'orientation': orientation,
-                 'hints': _hints(hints), 'method': method, 'cache': cache, 'wait': _LONGEST_WAIT}
+                 'hints': _hints(hints), 'method': method, 'cache': cache, 'candidate': candidate, 'wait': _LONGEST_WAIT}
         return self._http.request('GET', '/match', query, extra_time=_LONGEST_WAIT)[2]
 
     def match_info(self, source, target, **options):
@@ -164,13 +164,13 @@ class Client:
         query = {'src': _id(source), 'tgt': _id(target), 'fields': '', 'wait': _LONGEST_WAIT, **options}
         return self._http.json('GET', '/match', query, extra_time=_LONGEST_WAIT)
 
-    def symmetry(self, shape, hints=None, method=None, cache=None):
+    def symmetry(self, shape, hints=None, method=None, cache=None, candidate=None):
         """The intrinsic bilateral symmetry of a shape, a map to itself. `hints` are pairs of vertices that mirror each other."""
-        return Match(meshes.load(self.symmetry_file(shape, 'npz', hints, method, cache)))
+        return Match(meshes.load(self.symmetry_file(shape, 'npz', hints, method, cache, candidate)))
 
-    def symmetry_file(self, shape, format, hints=None, method=None, cache=None):
+    def symmetry_file(self, shape, format, hints=None, method=None, cache=None, candidate=None):
         """The same as the bytes of a file: npz, npy, txt, ply, glb, obj, png or json."""
-        query = {'format': format, 'hints': _hints(hints), 'method': method, 'cache': cache, 'wait': _LONGEST_WAIT}
+        query = {'format': format, 'hints': _hints(hints), 'method': method, 'cache': cache, 'candidate': candidate, 'wait': _LONGEST_WAIT}
         return self._http.request('GET', f'/shapes/{_id(shape)}/symmetry', query, extra_time=_LONGEST_WAIT)[2]
 
     def symmetry_info(self, shape, **options):
