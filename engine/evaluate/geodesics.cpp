@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <queue>
 #include <utility>
 
 #include "engine/mesh/topology.h"
@@ -60,34 +59,49 @@ GeodesicGraph::GeodesicGraph(const TriMesh& mesh) {
 }
 
 std::vector<double> GeodesicGraph::distances(std::int32_t source, std::span<const std::int32_t> targets) const {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::vector<double> distance(offsets_.size() - 1, infinity);
-  std::vector<bool> wanted(distance.size(), false);
+  const GeodesicSearch::Start start{source, 0};
+  return GeodesicSearch(*this).distances(std::span(&start, 1), targets);
+}
+
+GeodesicSearch::GeodesicSearch(const GeodesicGraph& graph)
+    : graph_(graph),
+      distance_(graph.offsets_.size() - 1, std::numeric_limits<double>::infinity()),
+      wanted_(graph.offsets_.size() - 1, false) {}
+
+void GeodesicSearch::reach(Queue& queue, std::int32_t vertex, double length) {
+  double& known = distance_[static_cast<std::size_t>(vertex)];
+  if (length >= known) return;
+  if (known == std::numeric_limits<double>::infinity()) touched_.push_back(vertex);
+  known = length;
+  queue.emplace(length, vertex);
+}
+
+std::vector<double> GeodesicSearch::distances(std::span<const Start> starts, std::span<const std::int32_t> targets) {
   std::size_t missing = 0;
   for (const std::int32_t target : targets) {
-    missing += wanted[static_cast<std::size_t>(target)] ? 0 : 1;
-    wanted[static_cast<std::size_t>(target)] = true;
+    missing += wanted_[static_cast<std::size_t>(target)] ? 0 : 1;
+    wanted_[static_cast<std::size_t>(target)] = true;
   }
-  using Reached = std::pair<double, std::int32_t>;
-  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> queue;
-  distance[static_cast<std::size_t>(source)] = 0;
-  queue.emplace(0, source);
+  Queue queue;
+  for (const Start& start : starts) reach(queue, start.vertex, start.length);
   while (!queue.empty() && missing > 0) {
     const auto [length, vertex] = queue.top();
     queue.pop();
     const auto v = static_cast<std::size_t>(vertex);
-    if (length > distance[v]) continue;
-    if (wanted[v]) --missing;
-    for (auto i = offsets_[v]; i < offsets_[v + 1]; ++i) {
-      const Step& step = steps_[static_cast<std::size_t>(i)];
-      const double through = length + step.length;
-      if (through >= distance[static_cast<std::size_t>(step.to)]) continue;
-      distance[static_cast<std::size_t>(step.to)] = through;
-      queue.emplace(through, step.to);
+    if (length > distance_[v]) continue;
+    if (wanted_[v]) --missing;
+    for (auto i = graph_.offsets_[v]; i < graph_.offsets_[v + 1]; ++i) {
+      const GeodesicGraph::Step& step = graph_.steps_[static_cast<std::size_t>(i)];
+      reach(queue, step.to, length + step.length);
     }
   }
   std::vector<double> result;
-  for (const std::int32_t target : targets) result.push_back(distance[static_cast<std::size_t>(target)]);
+  for (const std::int32_t target : targets) {
+    result.push_back(distance_[static_cast<std::size_t>(target)]);
+    wanted_[static_cast<std::size_t>(target)] = false;
+  }
+  for (const std::int32_t vertex : touched_) distance_[static_cast<std::size_t>(vertex)] = std::numeric_limits<double>::infinity();
+  touched_.clear();
   return result;
 }
 

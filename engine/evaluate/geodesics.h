@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <queue>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/data/tri_mesh.h"
@@ -22,6 +25,8 @@ class GeodesicGraph {
   [[nodiscard]] std::vector<double> distances(std::int32_t source, std::span<const std::int32_t> targets) const;
 
  private:
+  friend class GeodesicSearch;
+
   struct Step {
     std::int32_t to;
     double length;
@@ -31,6 +36,33 @@ class GeodesicGraph {
 
   std::vector<std::int32_t> offsets_;  ///< steps from vertex v are steps_[offsets_[v]] ... steps_[offsets_[v + 1] - 1]
   std::vector<Step> steps_;
+};
+
+/// Many searches in one graph, which must outlive this: what a search costs depends on how far it goes, not on the size of the mesh.
+/// Used by one thread.
+class GeodesicSearch {
+ public:
+  explicit GeodesicSearch(const GeodesicGraph& graph);
+
+  /// A vertex where a path may begin, and the length that it then has already.
+  struct Start {
+    std::int32_t vertex;
+    double length;
+  };
+
+  /// Lengths of the shortest paths from any of `starts` to each of `targets`, in their order; infinity where there is no path.
+  [[nodiscard]] std::vector<double> distances(std::span<const Start> starts, std::span<const std::int32_t> targets);
+
+ private:
+  using Reached = std::pair<double, std::int32_t>;
+  using Queue = std::priority_queue<Reached, std::vector<Reached>, std::greater<>>;
+
+  void reach(Queue& queue, std::int32_t vertex, double length);
+
+  const GeodesicGraph& graph_;
+  std::vector<double> distance_;       ///< per vertex; infinity outside of a search
+  std::vector<bool> wanted_;           ///< per vertex; false outside of a search
+  std::vector<std::int32_t> touched_;  ///< vertices whose distance is to be forgotten
 };
 
 }  // namespace spherematch

@@ -1,4 +1,4 @@
-// Text as a JSON string. Internal to engine/io.
+// Text as a JSON string, for what writes JSON without a library.
 #pragma once
 
 #include <string>

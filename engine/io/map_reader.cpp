@@ -105,15 +105,30 @@ Correspondence decode_npz(std::span<const std::byte> bytes) {
   return map;
 }
 
-std::vector<std::int32_t> read_landmarks(std::string_view text) {
-  std::vector<std::int32_t> landmarks;
+namespace {
+
+/// Whole numbers from `least` on, separated by blanks or line ends; `rule` says what a smaller one breaks.
+std::vector<std::int32_t> read_numbers(std::string_view text, std::int64_t least, const char* rule) {
+  std::vector<std::int32_t> numbers;
   TextScanner scanner(text);
   for (TextScanner ahead = scanner; !ahead.word().empty(); ahead = scanner) {
     const std::int64_t number = scanner.integer("a vertex number");
-    if (number < 1 || number > std::numeric_limits<std::int32_t>::max()) scanner.fail("vertex numbers count from 1");
-    landmarks.push_back(static_cast<std::int32_t>(number - 1));
+    if (number < least || number > std::numeric_limits<std::int32_t>::max()) scanner.fail(rule);
+    numbers.push_back(static_cast<std::int32_t>(number));
   }
+  return numbers;
+}
+
+}  // namespace
+
+std::vector<std::int32_t> read_landmarks(std::string_view text) {
+  std::vector<std::int32_t> landmarks = read_numbers(text, 1, "vertex numbers count from 1");
+  for (std::int32_t& vertex : landmarks) --vertex;
   return landmarks;
+}
+
+std::vector<std::int32_t> read_indices(std::string_view text) {
+  return read_numbers(text, -1, "vertex numbers count from 0, and -1 stands for none");
 }
 
 }  // namespace spherematch

@@ -20,4 +20,8 @@ namespace spherematch {
 /// @throws EngineError(malformed_mesh) with the line
 [[nodiscard]] std::vector<std::int32_t> read_landmarks(std::string_view text);
 
+/// Reads an index list as encode_text() writes it: for each source vertex the number of a target vertex, from 0, or -1 for none.
+/// @throws EngineError(malformed_mesh) with the line
+[[nodiscard]] std::vector<std::int32_t> read_indices(std::string_view text);
+
 }  // namespace spherematch

@@ -58,6 +58,20 @@ TEST(GeodesicGraph, IsAFewPercentAboveArcsOnTheSphere) {
   EXPECT_LT(sum / arcs, 1.035);
 }
 
+TEST(GeodesicSearch, StartsAnywhereAndForgetsWhatItFoundBefore) {
+  const TriMesh sphere = test::icosphere(3);
+  const GeodesicGraph graph(sphere);
+  GeodesicSearch search(graph);
+  std::vector<std::int32_t> targets{5, 100, 400, 5};
+  for (int repetition = 0; repetition < 2; ++repetition) {
+    const std::vector<GeodesicSearch::Start> starts{{7, 0.25}, {300, 0}};
+    const std::vector<double> found = search.distances(starts, targets);
+    const std::vector<double> from_seven = graph.distances(7, targets), from_other = graph.distances(300, targets);
+    for (std::size_t i = 0; i < targets.size(); ++i) EXPECT_NEAR(found[i], std::min(from_seven[i] + 0.25, from_other[i]), 1e-12);
+    (void)search.distances(std::vector<GeodesicSearch::Start>{{5, 0}}, std::vector<std::int32_t>{6});
+  }
+}
+
 TEST(GeodesicGraph, SaysInfinityWhereThereIsNoPath) {
   const TriMesh two = test::joined(test::tetrahedron(), test::tetrahedron());
   const std::vector<std::int32_t> targets{1, 5};

@@ -63,5 +63,12 @@ TEST(ReadLandmarks, CountsFromOne) {
     test::expect_refusal(ErrorCode::malformed_mesh, [&] { (void)read_landmarks(text); });
 }
 
+TEST(ReadIndices, CountsFromZeroWithMinusOneForNone) {
+  EXPECT_EQ(read_indices("0\n-1 7\n"), (std::vector<std::int32_t>{0, -1, 7}));
+  EXPECT_TRUE(read_indices("").empty());
+  for (const char* text : {"-2", "0.5", "x", "2147483648"})
+    test::expect_refusal(ErrorCode::malformed_mesh, [&] { (void)read_indices(text); });
+}
+
 }  // namespace
 }  // namespace spherematch

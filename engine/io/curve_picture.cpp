@@ -1,0 +1,112 @@
+#include "engine/io/curve_picture.h"
+
+#include <array>
+#include <cstdio>
+#include <string_view>
+
+namespace spherematch {
+
+namespace {
+
+constexpr double width = 640, height = 480;
+constexpr double left = 64, right = 620, top = 44, bottom = 424;
+/// Told apart also by those who do not tell red from green (Okabe & Ito).
+constexpr std::array<std::string_view, 8> colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999"};
+
+std::string number(double value, int decimals = 2) {
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  return text.data();
+}
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;  // XML has no other control characters
+    }
+  }
+  return result;
+}
+
+double x_of(double share) { return left + share * (right - left); }
+double y_of(double fraction) { return bottom - fraction * (bottom - top); }
+
+std::string text_at(double x, double y, std::string_view anchor, std::string_view text, std::string_view more = {}) {
+  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + std::string(anchor) + "\"" + std::string(more) + ">" +
+         escaped(text) + "</text>\n";
+}
+
+std::string line(double x1, double y1, double x2, double y2, std::string_view colour) {
+  return "<line x1=\"" + number(x1) + "\" y1=\"" + number(y1) + "\" x2=\"" + number(x2) + "\" y2=\"" + number(y2) + "\" stroke=\"" +
+         std::string(colour) + "\"/>\n";
+}
+
+std::string axes(const CurvePicture& picture) {
+  constexpr int ticks = 5;
+  std::string svg;
+  for (int i = 0; i <= ticks; ++i) {
+    const double share = static_cast<double>(i) / ticks;
+    svg += line(left, y_of(share), right, y_of(share), "#dddddd");
+    svg += line(x_of(share), top, x_of(share), bottom, "#dddddd");
+    svg += text_at(left - 8, y_of(share) + 4, "end", number(100 * share, 0) + "%");
+    svg += text_at(x_of(share), bottom + 18, "middle", number(share * picture.end, 3));
+  }
+  svg += line(left, bottom, right, bottom, "#333333") + line(left, top, left, bottom, "#333333");
+  svg += text_at((left + right) / 2, bottom + 42, "middle", picture.error_axis);
+  const double middle = (top + bottom) / 2;
+  svg += text_at(18, middle, "middle", "points", " transform=\"rotate(-90 18 " + number(middle) + ")\"");
+  return svg + text_at((left + right) / 2, 26, "middle", picture.title, " font-size=\"15\"");
+}
+
+std::string polyline(const ErrorCurve& curve, std::string_view colour) {
+  std::string svg = "<polyline fill=\"none\" stroke-width=\"2\" stroke=\"" + std::string(colour) + "\" points=\"";
+  const auto last = static_cast<double>(curve.fractions.size() - 1);
+  for (std::size_t i = 0; i < curve.fractions.size(); ++i) {
+    if (i > 0) svg += ' ';
+    svg.append(number(x_of(static_cast<double>(i) / last))).append(",").append(number(y_of(curve.fractions[i])));
+  }
+  return svg + "\"/>\n";
+}
+
+std::string legend_entry(std::size_t row, std::string_view name, std::string_view colour) {
+  const double y = bottom - 14 - 18 * static_cast<double>(row);
+  return line(right - 230, y, right - 202, y, colour) + text_at(right - 194, y + 4, "start", name);
+}
+
+}  // namespace
+
+std::string encode_svg(const CurvePicture& picture, std::span<const ErrorCurve> curves) {
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(width, 0) + "\" height=\"" + number(height, 0) +
+                    "\" viewBox=\"0 0 " + number(width, 0) + " " + number(height, 0) + "\" font-family=\"sans-serif\" font-size=\"12\">\n" +
+                    "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" + axes(picture);
+  for (std::size_t i = 0; i < curves.size(); ++i) svg += polyline(curves[i], colours[i % colours.size()]);
+  for (std::size_t i = 0; i < curves.size(); ++i) svg += legend_entry(curves.size() - 1 - i, curves[i].name, colours[i % colours.size()]);
+  return svg + "</svg>\n";
+}
+
+std::string encode_svg(const Evaluation& evaluation, const std::string& title) {
+  std::vector<ErrorCurve> curves;
+  const auto add = [&curves](const std::optional<MapError>& error, const char* name) {
+    if (error && error->scored > 0) curves.push_back({std::string(name) + ", mean " + number(error->mean, 4), error->curve});
+  };
+  add(evaluation.geodesic, "geodesic");
+  add(evaluation.biharmonic, "biharmonic");
+  add(evaluation.bijectivity, "there and back");
+  return encode_svg({.title = title, .error_axis = "distance to the truth, at unit area", .end = curve_end}, curves);
+}
+
+}  // namespace spherematch
