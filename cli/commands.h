@@ -34,23 +34,32 @@ struct PrepareOptions : CommonOptions {
   std::vector<std::string> meshes;
 };
 
-struct MatchOptions : CommonOptions {
-  std::string source;
-  std::string target;
-  std::string output;  ///< empty: only print
+/// Flags of the subcommands that match.
+struct MatchingOptions : CommonOptions {
   std::string method = "default";
   std::string orientation = "preserve";
-  std::vector<Hint> hints;
   int candidate = 0;
 };
 
-struct EvaluateOptions {
+struct MatchOptions : MatchingOptions {
   std::string source;
   std::string target;
-  std::string map;
-  std::vector<std::string> landmarks;  ///< two files, or none: the identity is the truth
+  std::string output;  ///< empty: only print
+  std::vector<Hint> hints;
+};
+
+struct EvaluateOptions : MatchingOptions {
+  std::string source;
+  std::string target;
+  std::string map;                     ///< empty: the two are matched
+  std::string reverse;                 ///< empty: not given
+  std::string truth;                   ///< empty: the landmarks, or else the identity
+  std::vector<std::string> landmarks;  ///< two files, or none
   std::string mirrored;                ///< empty: not asked for
-  std::string repair = "fill";
+  std::string points;                  ///< empty: everywhere
+  bool biharmonic = false;
+  std::string json;   ///< "-" for standard output, empty for none
+  std::string curve;  ///< empty for none
 };
 
 void add_prepare_options(CLI::App& command, PrepareOptions& options);
@@ -65,6 +74,14 @@ int run_match(const MatchOptions& options);
 /// The match of the source with its own mirror image.
 int run_symmetry(MatchOptions options);
 int run_evaluate(const EvaluateOptions& options);
+
+// For those that match (match_command.cpp).
+
+void add_matching_options(CLI::App& command, MatchingOptions& options);
+/// For those whose orientation is not given.
+void add_orientation_option(CLI::App& command, MatchingOptions& options);
+/// Of words that the options above have accepted.
+[[nodiscard]] MatchParameters match_parameters(const MatchingOptions& options);
 
 // For all (main.cpp).
 

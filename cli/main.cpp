@@ -42,7 +42,7 @@ int run(int argc, const char* const* argv) {
       *app.add_subcommand("symmetry", "Map the vertices of a mesh to their mirror images, left to right, on the same mesh");
   add_symmetry_options(symmetry, symmetry_options);
   EvaluateOptions evaluate_options;
-  CLI::App& evaluate = *app.add_subcommand("evaluate", "Measure a map against ground truth, along the target's surface");
+  CLI::App& evaluate = *app.add_subcommand("evaluate", "Measure a map: errors against ground truth, continuity, coverage");
   add_evaluate_options(evaluate, evaluate_options);
   for (CLI::App* command : {&prepare, &match, &symmetry, &evaluate}) command->footer(footer);
 

@@ -26,10 +26,8 @@ Preparation prepare_side(ShapeStore& store, const std::string& mesh, const Match
 }
 
 MatchParameters parameters_of(const MatchOptions& options) {
-  MatchParameters parameters = options.method == "paper" ? MatchParameters::paper() : MatchParameters{};
-  parameters.orientation = orientations.at(options.orientation);
+  MatchParameters parameters = match_parameters(options);
   parameters.hints = options.hints;
-  parameters.candidate = options.candidate;
   return parameters;
 }
 
@@ -68,30 +66,45 @@ void add_shared_options(CLI::App& command, MatchOptions& options) {
         return output_format_of(file) ? std::string()
                                       : "'" + file + "' has no supported extension; supported are " + supported_extensions();
       });
-  command.add_option("--method", options.method, "Parameters of the match: the best measured ones, or the paper's")
-      ->check(CLI::IsMember({"default", "paper"}))
-      ->capture_default_str();
+  add_matching_options(command, options);
   command
       .add_option_function<std::string>(
           "--hints", [&options](const std::string& text) { options.hints = hints_of(text); },
           "Vertices that correspond, numbered from 0, as SOURCE:TARGET,SOURCE:TARGET,...")
       ->type_name("TEXT");
-  command.add_option("--candidate", options.candidate, "Which map: 0 for that of the best rotation, 1 for the next best")
-      ->check(CLI::Range(0, MatchParameters{}.max_candidates - 1))
-      ->capture_default_str();
   add_common_options(command, options);
 }
 
 }  // namespace
 
-void add_match_options(CLI::App& command, MatchOptions& options) {
-  command.add_option("SRC", options.source, "Source mesh: the map has one entry for each of its vertices")->required();
-  command.add_option("TGT", options.target, "Target mesh")->required();
+MatchParameters match_parameters(const MatchingOptions& options) {
+  MatchParameters parameters = options.method == "paper" ? MatchParameters::paper() : MatchParameters{};
+  parameters.orientation = orientations.at(options.orientation);
+  parameters.candidate = options.candidate;
+  return parameters;
+}
+
+void add_matching_options(CLI::App& command, MatchingOptions& options) {
+  command.add_option("--method", options.method, "Parameters of the match: the best measured ones, or the paper's")
+      ->check(CLI::IsMember({"default", "paper"}))
+      ->capture_default_str();
+  command.add_option("--candidate", options.candidate, "Which map: 0 for that of the best rotation, 1 for the next best")
+      ->check(CLI::Range(0, MatchParameters{}.max_candidates - 1))
+      ->capture_default_str();
+}
+
+void add_orientation_option(CLI::App& command, MatchingOptions& options) {
   command
       .add_option("--orientation", options.orientation,
                   "Match the source as it is, its mirror image (left bone to right bone), or whichever scores better")
       ->check(CLI::IsMember({"preserve", "reverse", "any"}))
       ->capture_default_str();
+}
+
+void add_match_options(CLI::App& command, MatchOptions& options) {
+  command.add_option("SRC", options.source, "Source mesh: the map has one entry for each of its vertices")->required();
+  command.add_option("TGT", options.target, "Target mesh")->required();
+  add_orientation_option(command, options);
   add_shared_options(command, options);
 }
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "engine/data/parallel.h"
+#include "engine/evaluate/evaluation.h"
 #include "engine/evaluate/involution.h"
-#include "engine/evaluate/map_error.h"
 #include "engine/io/mesh_reader.h"
 #include "engine/mesh/decimate.h"
 #include "engine/mesh/laplacian.h"
@@ -183,8 +183,9 @@ MatchResult match(const PreprocessedShape& source, const PreprocessedShape& targ
   return match(borrowed(source), borrowed(target), parameters, progress, threads);
 }
 
-MapError evaluate(const Correspondence& map, const Surface& target, std::span<const Landmark> truth) {
-  return geodesic_error(map, target, truth);
+Evaluation evaluate(const PreprocessedShape& source, const PreprocessedShape& target, const Correspondence& map,
+                    const Correspondence* reverse, const GroundTruth& truth, const Progress& progress, int threads) {
+  return evaluate_map(source, target, map, reverse, truth, progress, threads);
 }
 
 }  // namespace spherematch

@@ -44,8 +44,11 @@ namespace spherematch {
 [[nodiscard]] MatchResult match(const PreprocessedShape& source, const PreprocessedShape& target, const MatchParameters& parameters = {},
                                 const Progress& progress = {}, int threads = 2);
 
-/// The error of a map against ground truth (engine/evaluate/map_error.h).
-/// @throws EngineError(invalid_parameter)
-[[nodiscard]] MapError evaluate(const Correspondence& map, const Surface& target, std::span<const Landmark> truth);
+/// How good a map is: errors against the truth where there is one, continuity, coverage, and with `reverse`, the map the other way, how
+/// far the two are from each other's inverses (engine/data/evaluation.h, engine/evaluate). Biharmonic figures are those of shapes that come
+/// with their eigenbases; of the others only the surface is read. `reverse` may be null.
+/// @throws EngineError(cancelled), EngineError(invalid_parameter) when map or truth do not fit the shapes
+[[nodiscard]] Evaluation evaluate(const PreprocessedShape& source, const PreprocessedShape& target, const Correspondence& map,
+                                  const Correspondence* reverse, const GroundTruth& truth, const Progress& progress = {}, int threads = 2);
 
 }  // namespace spherematch

@@ -1,4 +1,5 @@
 """The command without a server, and beside one."""
+import json
 import subprocess
 import unittest
 
@@ -123,24 +124,63 @@ class CliTest(support.TestCase):
             self.assertEqual(self.run_cli('match', 'a.off', target + '.off', '--store', self.store, '-o', target + '.npz').returncode, 0)
         done = self.run_cli('evaluate', 'a.off', 'a.off', 'a.npz')
         self.assertEqual((done.returncode, done.stderr), (0, ''))
-        self.assertRegex(done.stdout, r'^error: mean 0\.0\d, median 0\.0\d, .* 162 landmarks\n$')
+        self.assertRegex(done.stdout, r'^error: mean 0\.0\d, median 0\.0\d, .* 162 landmarks\nedges: .*; 0 of 480 torn\nfaces: .*\ncoverage: .*\n$')
         with open(self.place + '/some.vts', 'w') as file:
             file.write('1\n20\n162\n')
         with open(self.place + '/others.vts', 'w') as file:
             file.write('162\n1\n20\n')
         done = self.run_cli('evaluate', 'a.off', 'b.off', 'b.npz', '--landmarks', 'some.vts', 'some.vts', '--mirrored', 'others.vts')
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stdout, r'3 landmarks\nagainst the mirrored truth: .*\nflipped: no\n$')
+        self.assertRegex(done.stdout, r'3 landmarks\nagainst the mirrored truth: .*\nflipped: no\nedges: ')
 
         def fails(code, message, *arguments):
             done = self.run_cli('evaluate', *arguments)
             self.assertEqual(done.returncode, code, done.stderr)
             self.assertIn(message, done.stderr)
 
-        fails(2, 'MAP', 'a.off', 'b.off')
+        fails(2, '--reverse requires MAP', 'a.off', 'b.off', '--reverse', 'b.npz')
+        fails(2, 'excludes', 'a.off', 'b.off', 'b.npz', '--truth', 'none', '--landmarks', 'some.vts', 'some.vts')
+        fails(2, 'does not end in .svg', 'a.off', 'b.off', 'b.npz', '--curve', 'curve.jpg')
+        fails(3, 'some.vts has 3 entries', 'a.off', 'b.off', 'b.npz', '--truth', 'some.vts')
         fails(3, 'not an NPZ', 'a.off', 'b.off', 'some.vts')
         fails(3, 'have 3 and 0 entries', 'a.off', 'b.off', 'b.npz', '--landmarks', 'some.vts', '/dev/null')
         fails(4, 'nowhere.npz', 'a.off', 'b.off', 'nowhere.npz')
+
+    def test_evaluate_matches_by_itself(self):
+        """What it measures of its own match is what it measures of the maps that match writes."""
+        def measured(*arguments):
+            done = self.run_cli('evaluate', 'a.off', 'b.off', *arguments, '--store', self.store, '--json', '-')
+            self.assertEqual((done.returncode, done.stderr), (0, ''))
+            result = json.loads(done.stdout)
+            self.assertEqual(len(result['thresholds']), 101)
+            return result
+
+        whole = measured('--curve', 'curve.svg')
+        with open(self.place + '/curve.svg') as file:
+            self.assertIn('geodesic, mean ' + format(whole['geodesic']['mean'], '.4f'), file.read())
+        self.assertEqual(len(whole['geodesic']['curve']), 101)
+        for name in ('biharmonic', 'bijectivity', 'bijectivity_biharmonic'):
+            self.assertEqual(whole[name]['scored'], 162)
+        self.assertGreater(whole['symmetric_integral'], 0)
+        self.assertGreater(whole['coverage']['area'], 0.95)
+        self.assertIsNone(whole['flipped'])
+        for source, target in ('ab', 'ba'):
+            done = self.run_cli('match', source + '.off', target + '.off', '--store', self.store, '-o', source + target + '.npz')
+            self.assertEqual(done.returncode, 0, done.stderr)
+        given = measured('ab.npz', '--reverse', 'ba.npz', '--biharmonic')
+        for name in ('geodesic', 'biharmonic', 'continuity', 'coverage'):
+            self.assertEqual(given[name], whole[name], name)
+        self.assertIsNone(measured('ab.npz')['biharmonic'])
+        self.assertIsNone(measured('ab.npz', '--truth', 'none')['geodesic'])
+
+        with open(self.place + '/list.txt', 'w') as file:
+            file.write('\n'.join(map(str, [-1, *range(1, 162)])))
+        self.assertEqual(measured('ab.npz', '--truth', 'list.txt')['geodesic']['scored'], 161)
+        with open(self.place + '/points.vts', 'w') as file:
+            file.write('3\n8\n')
+        at_points = measured('ab.npz', '--points', 'points.vts')['geodesic']
+        self.assertEqual(at_points['scored'], 2)
+        self.assertLess(abs(at_points['median'] - at_points['mean']), 1e-12)
 
     def test_errors_and_exit_codes(self):
         def fails(code, message, *arguments):

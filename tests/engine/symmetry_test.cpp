@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/engine.h"
+#include "engine/evaluate/map_error.h"
 #include "engine/mesh/repair.h"
 #include "tests/support/meshes.h"
 #include "tests/support/surface_checks.h"
@@ -86,7 +87,7 @@ class Symmetry : public ::testing::Test {
   [[nodiscard]] double error(const MatchResult& result, const Surface& surface) const {
     std::vector<Landmark> truth;
     for (std::int32_t v = 0; v < surface.uploaded_vertices(); v += 7) truth.push_back({v, partner(v)});
-    return evaluate(result.map, surface, truth).mean;
+    return geodesic_error(result.map, surface, truth).mean;
   }
 
   const TriMesh rest_ = beast(3);
