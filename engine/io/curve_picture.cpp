@@ -1,7 +1,9 @@
 #include "engine/io/curve_picture.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <optional>
 #include <string_view>
 
 namespace spherematch {
@@ -55,29 +57,37 @@ std::string line(double x1, double y1, double x2, double y2, std::string_view co
          std::string(colour) + "\"/>\n";
 }
 
-std::string axes(const CurvePicture& picture) {
+/// With three digits, and no more zeros than needed.
+std::string label(double value) {
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
+}
+
+std::string axes(const LinePicture& picture) {
   constexpr int ticks = 5;
   std::string svg;
   for (int i = 0; i <= ticks; ++i) {
     const double share = static_cast<double>(i) / ticks;
+    const double y = share * picture.y_end;
     svg += line(left, y_of(share), right, y_of(share), "#dddddd");
     svg += line(x_of(share), top, x_of(share), bottom, "#dddddd");
-    svg += text_at(left - 8, y_of(share) + 4, "end", number(100 * share, 0) + "%");
-    svg += text_at(x_of(share), bottom + 18, "middle", number(share * picture.end, 3));
+    svg += text_at(left - 8, y_of(share) + 4, "end", picture.percent ? label(100 * y) + "%" : label(y));
+    svg += text_at(x_of(share), bottom + 18, "middle", label(share * picture.x_end));
   }
   svg += line(left, bottom, right, bottom, "#333333") + line(left, top, left, bottom, "#333333");
-  svg += text_at((left + right) / 2, bottom + 42, "middle", picture.error_axis);
+  svg += text_at((left + right) / 2, bottom + 42, "middle", picture.x_axis);
   const double middle = (top + bottom) / 2;
-  svg += text_at(18, middle, "middle", "points", " transform=\"rotate(-90 18 " + number(middle) + ")\"");
+  svg += text_at(18, middle, "middle", picture.y_axis, " transform=\"rotate(-90 18 " + number(middle) + ")\"");
   return svg + text_at((left + right) / 2, 26, "middle", picture.title, " font-size=\"15\"");
 }
 
-std::string polyline(const ErrorCurve& curve, std::string_view colour) {
+std::string polyline(const LinePicture& picture, const PictureLine& drawn, std::string_view colour) {
   std::string svg = "<polyline fill=\"none\" stroke-width=\"2\" stroke=\"" + std::string(colour) + "\" points=\"";
-  const auto last = static_cast<double>(curve.fractions.size() - 1);
-  for (std::size_t i = 0; i < curve.fractions.size(); ++i) {
+  for (std::size_t i = 0; i < drawn.points.size(); ++i) {
     if (i > 0) svg += ' ';
-    svg.append(number(x_of(static_cast<double>(i) / last))).append(",").append(number(y_of(curve.fractions[i])));
+    const auto& [x, y] = drawn.points[i];
+    svg.append(number(x_of(x / picture.x_end))).append(",").append(number(y_of(y / picture.y_end)));
   }
   return svg + "\"/>\n";
 }
@@ -89,24 +99,35 @@ std::string legend_entry(std::size_t row, std::string_view name, std::string_vie
 
 }  // namespace
 
-std::string encode_svg(const CurvePicture& picture, std::span<const ErrorCurve> curves) {
+std::string encode_svg(const LinePicture& picture, std::span<const PictureLine> lines) {
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(width, 0) + "\" height=\"" + number(height, 0) +
                     "\" viewBox=\"0 0 " + number(width, 0) + " " + number(height, 0) + "\" font-family=\"sans-serif\" font-size=\"12\">\n" +
                     "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" + axes(picture);
-  for (std::size_t i = 0; i < curves.size(); ++i) svg += polyline(curves[i], colours[i % colours.size()]);
-  for (std::size_t i = 0; i < curves.size(); ++i) svg += legend_entry(curves.size() - 1 - i, curves[i].name, colours[i % colours.size()]);
+  for (std::size_t i = 0; i < lines.size(); ++i) svg += polyline(picture, lines[i], colours[i % colours.size()]);
+  for (std::size_t i = 0; i < lines.size(); ++i) svg += legend_entry(lines.size() - 1 - i, lines[i].name, colours[i % colours.size()]);
   return svg + "</svg>\n";
 }
 
+PictureLine cumulative_line(const std::string& name, const std::vector<double>& curve) {
+  PictureLine line{name, {}};
+  const std::vector<double> thresholds = curve_thresholds();
+  for (std::size_t i = 0; i < std::min(curve.size(), thresholds.size()); ++i) line.points.push_back({thresholds[i], curve[i]});
+  return line;
+}
+
+LinePicture cumulative_picture(const std::string& title, const std::string& error_axis) {
+  return {.title = title, .x_axis = error_axis, .y_axis = "points", .x_end = curve_end, .y_end = 1, .percent = true};
+}
+
 std::string encode_svg(const Evaluation& evaluation, const std::string& title) {
-  std::vector<ErrorCurve> curves;
+  std::vector<PictureLine> curves;
   const auto add = [&curves](const std::optional<MapError>& error, const char* name) {
-    if (error && error->scored > 0) curves.push_back({std::string(name) + ", mean " + number(error->mean, 4), error->curve});
+    if (error && error->scored > 0) curves.push_back(cumulative_line(std::string(name) + ", mean " + number(error->mean, 4), error->curve));
   };
   add(evaluation.geodesic, "geodesic");
   add(evaluation.biharmonic, "biharmonic");
   add(evaluation.bijectivity, "there and back");
-  return encode_svg({.title = title, .error_axis = "distance to the truth, at unit area", .end = curve_end}, curves);
+  return encode_svg(cumulative_picture(title, "distance to the truth, at unit area"), curves);
 }
 
 }  // namespace spherematch
