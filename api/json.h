@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "api/evaluation.h"
 #include "api/types.h"
 
 namespace spherematch::api {
@@ -23,6 +24,8 @@ class JsonError : public std::runtime_error {
 [[nodiscard]] Json to_json(const Match& value);
 [[nodiscard]] Json to_json(const MatchRequest& value);
 [[nodiscard]] Json to_json(const PointMatch& value);
+[[nodiscard]] Json to_json(const EvaluationRequest& value);
+[[nodiscard]] Json to_json(const Evaluation& value);
 [[nodiscard]] Json to_json(const Job& value);
 [[nodiscard]] Json to_json(const JobPage& value);
 [[nodiscard]] Json to_json(const PairResult& value);
@@ -51,6 +54,10 @@ template <>
 MatchRequest from_text<MatchRequest>(std::string_view text);
 template <>
 PointMatch from_text<PointMatch>(std::string_view text);
+template <>
+EvaluationRequest from_text<EvaluationRequest>(std::string_view text);
+template <>
+Evaluation from_text<Evaluation>(std::string_view text);
 template <>
 Job from_text<Job>(std::string_view text);
 template <>

@@ -80,19 +80,6 @@ Landmarks read_landmarks(const Json& value, const std::string& path) {
   return landmarks;
 }
 
-std::vector<std::array<std::int32_t, 2>> read_hints(const Json& value, const std::string& path) {
-  const Json& array = array_at(value, path);
-  if (array.size() > max_hints) throw JsonError(path + ": must have at most " + std::to_string(max_hints) + " elements");
-  std::vector<std::array<std::int32_t, 2>> hints;
-  for (std::size_t i = 0; i < array.size(); ++i) {
-    const std::string hint_path = element_path(path, i);
-    const Json& hint = array_at(array[i], hint_path, 2);
-    hints.push_back({static_cast<std::int32_t>(integer_at(hint[0], element_path(hint_path, 0), 0, last_index)),
-                     static_cast<std::int32_t>(integer_at(hint[1], element_path(hint_path, 1), 0, last_index))});
-  }
-  return hints;
-}
-
 std::vector<std::array<std::string, 2>> read_pairs(const Json& value, const std::string& path) {
   const Json& array = array_at(value, path);
   if (array.empty() || array.size() > max_pairs) {
@@ -114,6 +101,19 @@ Json pairs_json(const MatchRequest& value) {
 }
 
 }  // namespace
+
+std::vector<std::array<std::int32_t, 2>> read_hints(const Json& value, const std::string& path) {
+  const Json& array = array_at(value, path);
+  if (array.size() > max_hints) throw JsonError(path + ": must have at most " + std::to_string(max_hints) + " elements");
+  std::vector<std::array<std::int32_t, 2>> hints;
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    const std::string hint_path = element_path(path, i);
+    const Json& hint = array_at(array[i], hint_path, 2);
+    hints.push_back({static_cast<std::int32_t>(integer_at(hint[0], element_path(hint_path, 0), 0, last_index)),
+                     static_cast<std::int32_t>(integer_at(hint[1], element_path(hint_path, 1), 0, last_index))});
+  }
+  return hints;
+}
 
 Json to_json(const MatchRequest& value) {
   if (!value.pairs.empty()) return pairs_json(value);

@@ -2,6 +2,7 @@
 // Reads one JSON object member by member; what is not asked for is an error. Internal to api/.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -54,6 +55,8 @@ const Json& array_at(const Json& value, const std::string& path, std::size_t siz
 /// The nested readers that more than one file needs.
 [[nodiscard]] Problem read_problem(const Json& value, const std::string& path);
 [[nodiscard]] Match read_match(const Json& value, const std::string& path);
+/// Pairs of vertices, as many as a match takes.
+[[nodiscard]] std::vector<std::array<std::int32_t, 2>> read_hints(const Json& value, const std::string& path);
 [[nodiscard]] Json text_or_null(const std::string& text);
 /// The array in the member "checks".
 [[nodiscard]] std::vector<ReadinessCheck> read_checks(ObjectReader& reader);

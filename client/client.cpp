@@ -185,6 +185,13 @@ api::PointMatch Client::match_points(const api::MatchRequest& request) const {
   return parse<api::PointMatch>(transport_->send(post));
 }
 
+api::Evaluation Client::evaluate(const api::EvaluationRequest& request) const {
+  Request post = send_json("POST", "/evaluations", api::to_text(api::to_json(request)), true);
+  post.query = {{"wait", seconds(longest_wait)}};
+  post.wait = longest_wait;
+  return parse<api::Evaluation>(transport_->send(post));
+}
+
 std::vector<double> Client::transfer(const std::string& src, const std::string& tgt, std::span<const double> values, std::size_t columns,
                                      const std::string& interpolation, const MatchOptions& options) const {
   const std::string body = encode_npy(values, columns);

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/evaluation.h"
 #include "api/types.h"
 #include "client/arrays.h"
 #include "client/errors.h"
@@ -88,6 +89,8 @@ class Client {
   [[nodiscard]] api::Match symmetry_info(const std::string& id, const MatchOptions& options = {}) const;
   [[nodiscard]] std::string symmetry_file(const std::string& id, const std::string& format, const MatchOptions& options = {}) const;
   [[nodiscard]] api::PointMatch match_points(const api::MatchRequest& request) const;
+  /// How good a match is: against the truth where that is known, and by itself.
+  [[nodiscard]] api::Evaluation evaluate(const api::EvaluationRequest& request) const;
   /// Rows of `columns` numbers for each vertex of tgt, row after row, become rows for each vertex of src.
   /// `interpolation` is "linear" or "nearest". @throws std::invalid_argument when the values are no whole rows
   [[nodiscard]] std::vector<double> transfer(const std::string& src, const std::string& tgt, std::span<const double> values,

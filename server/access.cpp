@@ -28,6 +28,7 @@ constexpr auto rules = std::to_array<Rule>({
     {"GET", "/docs", std::nullopt},
     {"GET", "/metrics", Scope::admin},
     {"POST", "/match", Scope::read},
+    {"POST", "/evaluations", Scope::read},
     {"POST", "/transfer", Scope::read},
     {"GET", "*", Scope::read},
     {"*", "*", Scope::write},

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "engine/data/correspondence.h"
+#include "engine/data/evaluation.h"
 #include "engine/data/parameters.h"
 #include "engine/data/preprocessed_shape.h"
 #include "engine/data/progress.h"
@@ -40,6 +41,9 @@ class EnginePort {
   /// Shapes that are the same object as in an earlier call may be matched faster.
   [[nodiscard]] virtual MatchResult match(const ShapePointer& source, const ShapePointer& target, const MatchParameters& parameters,
                                           const Progress& progress) const = 0;
+  /// `reverse` may be null.
+  [[nodiscard]] virtual Evaluation evaluate(const PreprocessedShape& source, const PreprocessedShape& target, const Correspondence& map,
+                                            const Correspondence* reverse, const GroundTruth& truth, const Progress& progress) const = 0;
 };
 
 }  // namespace spherematch

@@ -48,4 +48,14 @@ MatchResult RealEngine::match(const ShapePointer& source, const ShapePointer& ta
       .get();
 }
 
+Evaluation RealEngine::evaluate(const PreprocessedShape& source, const PreprocessedShape& target, const Correspondence& map,
+                                const Correspondence* reverse, const GroundTruth& truth, const Progress& progress) const {
+  return std::async(std::launch::async,
+                    [&] {
+                      be_nice(match_niceness);
+                      return spherematch::evaluate(source, target, map, reverse, truth, progress, threads_);
+                    })
+      .get();
+}
+
 }  // namespace spherematch

@@ -19,6 +19,8 @@ class RealEngine final : public EnginePort {
   [[nodiscard]] PreprocessedShape preprocess(Surface surface, const Progress& progress) const override;
   [[nodiscard]] MatchResult match(const ShapePointer& source, const ShapePointer& target, const MatchParameters& parameters,
                                   const Progress& progress) const override;
+  [[nodiscard]] Evaluation evaluate(const PreprocessedShape& source, const PreprocessedShape& target, const Correspondence& map,
+                                    const Correspondence* reverse, const GroundTruth& truth, const Progress& progress) const override;
 
  private:
   [[nodiscard]] std::shared_ptr<const MatchShape> match_shape(const ShapePointer& shape) const;

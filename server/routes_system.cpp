@@ -20,6 +20,7 @@ constexpr std::string_view start_page = R"(<!doctype html>
 <li>/shapes/{id}, /shapes/{id}/mesh, /shapes/{id}/sphere, /shapes/{id}/hks: one shape, its upload, its spherical parametrisation, its signals</li>
 <li>/shapes/{id}/symmetry: its bilateral symmetry, a map to itself</li>
 <li>/match?src={id}&amp;tgt={id}: the map from one shape to another</li>
+<li>/evaluations: POST two shapes and what is known of their correspondence, get how good the match is</li>
 <li>/transfer?src={id}&amp;tgt={id}: POST an array of values at the vertices of tgt, get it for those of src</li>
 <li>/scene?src={id}&amp;tgt={id}: both meshes, corresponding points in one colour</li>
 <li><a href="/healthz">/healthz</a>, <a href="/readyz">/readyz</a>, <a href="/version">/version</a>, /metrics: the server itself</li>

@@ -183,5 +183,21 @@ TEST_F(ClientTest, ResultsGoOnWhereTheyBrokeOff) {
   EXPECT_EQ(asked[1], "1");
 }
 
+TEST_F(ClientTest, AnEvaluationIsAskedForAsJson) {
+  api::EvaluationRequest asked;
+  asked.src = "source";
+  asked.tgt = "target";
+  asked.truth = api::LandmarkTruth{.source = {1, 2}, .target = {3, 4}, .mirrored = std::nullopt};
+  server.Post("/evaluations", [&](const httplib::Request& request, httplib::Response& response) {
+    EXPECT_EQ(api::from_text<api::EvaluationRequest>(request.body), asked);
+    EXPECT_EQ(request.get_param_value("wait"), "60");
+    api::Evaluation evaluation;
+    evaluation.geodesic = api::MapError{.mean = 0.25, .scored = 2};
+    response.set_content(api::to_text(api::to_json(evaluation)), "application/json");
+  });
+  start();
+  EXPECT_EQ(client().evaluate(asked).geodesic.value().scored, 2);
+}
+
 }  // namespace
 }  // namespace spherematch::client

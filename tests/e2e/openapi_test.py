@@ -36,7 +36,7 @@ class OpenApiTest(support.TestCase):
         return path.replace('{id}', self.a if path.startswith('/shapes') else 'p' + self.a)
 
     def body(self, method, path):
-        return {('post', '/shapes'): b'x', ('patch', '/shapes/{id}'): b'{}', ('post', '/match'): b'{}', ('post', '/transfer'): b'x'}.get((method, path))
+        return {('post', '/shapes'): b'x', ('patch', '/shapes/{id}'): b'{}', ('post', '/match'): b'{}', ('post', '/transfer'): b'x', ('post', '/evaluations'): b'{}'}.get((method, path))
 
     def check_interface(self, checker):
         """What can be asked of the server without knowing what a route does."""
@@ -49,6 +49,7 @@ class OpenApiTest(support.TestCase):
         array = npy(np.zeros(162))
         for method, path, body, rest in (('get', '/shapes', None, ''), ('get', '/jobs', None, ''), ('get', '/match', None, pair),
                                          ('get', '/scene', None, pair), ('post', '/transfer', array, pair),
+                                         ('post', '/evaluations', json.dumps({'src': self.a, 'tgt': self.b}).encode(), ''),
                                          ('post', '/shapes', b'x', ''), ('get', '/shapes/{id}/mesh', None, ''),
                                          ('get', '/shapes/{id}/sphere', None, ''), ('get', '/shapes/{id}/hks', None, ''),
                                          ('get', '/shapes/{id}/symmetry', None, '')):
@@ -89,6 +90,7 @@ class OpenApiTest(support.TestCase):
             self.assertEqual(call('get', path, f'/shapes/{a}/{part}', headers={'Accept': 'video/mp4'}).status, 406)
             self.assertEqual(call('get', path, f'/shapes/{"0" * 32}/{part}').status, 404)
         self.matches(checker)
+        self.evaluations(checker)
         self.jobs(checker)
         self.assertEqual(call('delete', '/shapes/{id}', '/shapes/' + c).status, 204)
         for method in ('get', 'delete'):
@@ -113,6 +115,17 @@ class OpenApiTest(support.TestCase):
         call('post', '/transfer', '/transfer?' + pair, b'x')
         scene = call('get', '/scene', '/scene?' + pair)
         call('get', '/scene', '/scene?' + pair, headers={'If-None-Match': scene.headers['ETag']})
+
+    def evaluations(self, checker):
+        call, every = checker.call, list(range(162))
+        for truth in (None, 'identity', every, {'source': every, 'target': every}, {'source': [0, 5], 'target': [0, 5], 'mirrored': [5, 0]}):
+            body = {'src': self.a, 'tgt': self.b, 'truth': truth, 'orientation': 'preserve'}
+            checker.validate(body, {'$ref': '#/components/schemas/EvaluationRequest'}, 'the request')
+            self.assertEqual(call('post', '/evaluations', '/evaluations', json.dumps(body).encode()).status, 200)
+            call('post', '/evaluations', '/evaluations?format=svg', json.dumps(body).encode())
+        for wrong in ({'truth': [0]}, {'truth': 'x'}, {'tgt': '0' * 32}):
+            call('post', '/evaluations', '/evaluations', json.dumps({'src': self.a, 'tgt': self.b, **wrong}).encode())
+        call('post', '/evaluations', '/evaluations', json.dumps(body).encode(), {'Accept': 'video/mp4'})
 
     def jobs(self, checker):
         call = checker.call

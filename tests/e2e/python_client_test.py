@@ -97,6 +97,18 @@ class PythonClientTest(support.TestCase):
         self.assertEqual(self.client.transfer(self.a, self.b, labels).dtype, np.uint8)
         self.assertTrue((self.client.transfer(self.a, self.b, labels) == labels[result.vertex]).all())
 
+    def test_evaluation(self):
+        figures = self.client.evaluate(self.a, self.b, truth='identity')
+        self.assertEqual(figures['geodesic']['scored'], 162)
+        self.assertLess(figures['geodesic']['mean'], 0.1)
+        self.assertGreater(figures['symmetric_integral'], 0)
+        listed = self.client.evaluate(self.a, self.b, truth=np.arange(162))
+        self.assertEqual(listed['geodesic'], figures['geodesic'])
+        marked = self.client.evaluate(self.a, self.b, landmarks=([1, 2], [1, 2]), mirrored=[80, 90], base=1, both=False, biharmonic=False)
+        self.assertIs(marked['flipped'], False)
+        self.assertIsNone(marked['bijectivity'])
+        self.assertIn(b'<polyline', self.client.evaluation_picture(self.a, self.b, truth='identity'))
+
     def test_jobs(self):
         job = self.client.match_many([(self.a, self.b), (self.b, self.a)], both=True)
         lines = list(self.client.results(job))

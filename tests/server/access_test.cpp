@@ -76,6 +76,7 @@ TEST_F(AccessTest, EveryScopeAllowsWhatItShould) {
            Case{"GET", "-", 401, 200, 200, 200},
            Case{"POST", "/match", 401, 200, 200, 200},
            Case{"POST", "/transfer", 401, 200, 200, 200},
+           Case{"POST", "/evaluations", 401, 200, 200, 200},
            Case{"POST", "/shapes", 401, 403, 200, 200},
            Case{"PATCH", "/shapes/{id}", 401, 403, 200, 200},
            Case{"DELETE", "/shapes/{id}", 401, 403, 200, 200},

@@ -25,7 +25,8 @@ class StubEngine final : public EnginePort {
   mutable std::atomic<int> matches = 0;          ///< started
   mutable std::atomic<bool> same_shape = false;  ///< the last match was of one object with itself
   std::string version_text = "stub-1";
-  mutable std::string mesh_name;  ///< that read_mesh() got last; for tests of one thread
+  mutable GroundTruth last_truth;  ///< that evaluate() got last; for tests of one thread
+  mutable std::string mesh_name;   ///< that read_mesh() got last; for tests of one thread
 
   [[nodiscard]] std::string version() const override { return version_text; }
 
@@ -110,6 +111,27 @@ class StubEngine final : public EnginePort {
     result.reversed = parameters.orientation == Orientation::reverse;
     result.quality = {{"coverage", 1}};
     result.seconds = {{"rotation", 0.125}, {"total", 0.125}};
+    return result;
+  }
+
+  /// Figures that say what it was asked: how many landmarks of each kind as `scored`, and what is only measured with more than surfaces.
+  [[nodiscard]] Evaluation evaluate(const PreprocessedShape& source, const PreprocessedShape& target, const Correspondence& map,
+                                    const Correspondence* reverse, const GroundTruth& truth, const Progress& progress) const override {
+    progress.check();
+    const auto counted = [](std::size_t count) {
+      return MapError{.mean = 0.25, .curve = {0, 1}, .scored = static_cast<std::int32_t>(count)};
+    };
+    Evaluation result;
+    last_truth = truth;
+    if (!truth.direct.empty()) result.geodesic = counted(truth.direct.size());
+    if (!truth.mirrored.empty()) result.mirrored = counted(truth.mirrored.size());
+    if (!truth.mirrored.empty()) result.flipped = true;
+    if (target.eigenvectors.size() > 0) result.biharmonic = counted(map.vertex.size());
+    if (reverse != nullptr) result.bijectivity = counted(reverse->vertex.size());
+    if (truth.dense && reverse != nullptr && source.eigenvectors.size() > 0) result.symmetric_integral = 0.5;
+    result.continuity.dirichlet = 1.5;
+    result.coverage.area = 0.75;
+    result.seconds = {{"errors", 0.25}, {"total", 0.5}};
     return result;
   }
 

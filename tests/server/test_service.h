@@ -50,6 +50,7 @@ class TestService : public ::testing::Test {
     add_derived_routes(*router, *context);
     add_match_routes(*router, *context);
     add_match_post_routes(*router, *context);
+    add_evaluation_routes(*router, *context);
     add_transfer_routes(*router, *context);
     add_scene_routes(*router, *context);
     add_job_routes(*router, *context);

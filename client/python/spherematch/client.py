@@ -83,6 +83,10 @@ def _hints(hints):
     return ','.join(f'{int(source)}:{int(target)}' for source, target in hints) if hints else None
 
 
+def _indices(vertices):
+    return [int(vertex) for vertex in vertices]
+
+
 class Client:
     """Calls raise ProblemError where the server refuses, and TransportError where no answer comes. What can be repeated without harm is
     tried again up to `retries` times. `timeout` is in seconds, beyond the time that a call asks the server to wait."""
@@ -185,6 +189,26 @@ class Client:
         body = {name: value for name, value in body.items() if value is not None}
         answer = self._http.json('POST', '/match', {'wait': _LONGEST_WAIT}, body, extra_time=_LONGEST_WAIT)
         return answer['points'] if landmarks is None else answer['landmarks'] if points is None else answer
+
+    def evaluate(self, source, target, truth=None, landmarks=None, mirrored=None, **options):
+        """How good the match is, as a dict; docs/evaluation.md explains the figures. What is known: `truth`, 'identity' or one target
+        vertex for each source vertex (-1 where unknown), or `landmarks`, two lists of vertices that belong together, with `mirrored`, the
+        second list with left and right exchanged. Options are base, both, biharmonic, orientation, hints, method."""
+        return json.loads(self._evaluation('json', source, target, truth, landmarks, mirrored, options))
+
+    def evaluation_picture(self, source, target, truth=None, landmarks=None, mirrored=None, **options):
+        """The cumulative curves of evaluate(), as the bytes of an SVG file."""
+        return self._evaluation('svg', source, target, truth, landmarks, mirrored, options)
+
+    def _evaluation(self, format, source, target, truth, landmarks, mirrored, options):
+        if landmarks is not None:
+            truth = {'source': _indices(landmarks[0]), 'target': _indices(landmarks[1])}
+            if mirrored is not None:
+                truth['mirrored'] = _indices(mirrored)
+        elif truth is not None and not isinstance(truth, str):
+            truth = _indices(truth)
+        body = json.dumps({'src': _id(source), 'tgt': _id(target), 'truth': truth, **options}).encode()
+        return self._http.request('POST', '/evaluations', {'wait': _LONGEST_WAIT, 'format': format}, body, extra_time=_LONGEST_WAIT)[2]
 
     def transfer(self, source, target, values, interp=None, **options):
         """One row of `values` for each target vertex becomes one for each source vertex: skin weights, labels, colours, fields."""
