@@ -1,0 +1,24 @@
+// The experiments of the paper's section 5, on given shapes.
+#pragma once
+
+#include <vector>
+
+#include "bench/experiments/settings.h"
+
+namespace spherematch::bench {
+
+// Each prints a line per class or step as it goes, and writes its results to settings.out. @throws EngineError, std::runtime_error
+
+/// Figure 6, left: distances to the truth over all ordered pairs within each class. Writes correspondences.json,
+/// correspondences-biharmonic.svg and correspondences-geodesic.svg.
+void run_correspondences(const ExperimentSettings& settings);
+
+/// Figure 6, right: each shape against its own mirror image, at landmarks whose mirror images are known. Writes symmetry.json and
+/// symmetry-geodesic.svg.
+void run_symmetry(const ExperimentSettings& settings);
+
+/// The inset of section 5.1: D(S, T) of the first two of settings.places, which share their vertex numbering, against the number of
+/// authalic steps. Writes authalic.json and authalic.svg.
+void run_authalic(const ExperimentSettings& settings, const std::vector<int>& steps);
+
+}  // namespace spherematch::bench

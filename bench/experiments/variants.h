@@ -1,0 +1,23 @@
+// The methods that the experiments compare.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/data/parameters.h"
+
+namespace spherematch::bench {
+
+struct Variant {
+  std::string name;
+  MatchParameters parameters;
+};
+
+/// "rotation": the best rotation alone (the paper's Ours-); "flow": optical flow after it; "default": the defaults;
+/// "paper-rotation", "paper": the paper's parameters without and with its flow (Ours+).
+[[nodiscard]] const std::vector<Variant>& variants();
+
+/// Of these names, in this order. @throws std::runtime_error naming what there is
+[[nodiscard]] std::vector<Variant> variants_named(const std::vector<std::string>& names);
+
+}  // namespace spherematch::bench
