@@ -49,9 +49,10 @@ struct MapError {
   double p95 = 0;
   double max = 0;
   double auc = 0;
+  std::optional<double> area_mean{};  ///< where the landmarks are dense
   std::int32_t scored = 0;
   std::int32_t unscored = 0;
-  std::vector<double> curve;  ///< one for each of Evaluation::thresholds, or none where nothing was scored
+  std::vector<double> curve{};  ///< one for each of Evaluation::thresholds, or none where nothing was scored
   bool operator==(const MapError&) const = default;
 };
 

@@ -67,8 +67,10 @@ Json to_json(const Truth& truth) {
 
 Json to_json(const std::optional<MapError>& error) {
   if (!error) return nullptr;
-  return {{"mean", error->mean}, {"median", error->median}, {"p95", error->p95},           {"max", error->max},
-          {"auc", error->auc},   {"scored", error->scored}, {"unscored", error->unscored}, {"curve", error->curve}};
+  return {
+      {"mean", error->mean},     {"median", error->median},     {"p95", error->p95},
+      {"max", error->max},       {"auc", error->auc},           {"area_mean", error->area_mean ? Json(*error->area_mean) : Json(nullptr)},
+      {"scored", error->scored}, {"unscored", error->unscored}, {"curve", error->curve}};
 }
 
 Json to_json(const Continuity& continuity) {
@@ -100,6 +102,7 @@ std::optional<MapError> read_error(ObjectReader& parent, const char* name) {
   error.p95 = reader.number("p95", 0, most);
   error.max = reader.number("max", 0, most);
   error.auc = reader.number("auc", 0, 1.001);
+  if (!reader.is_null("area_mean")) error.area_mean = reader.number("area_mean", 0, most);
   error.scored = reader.count("scored");
   error.unscored = reader.count("unscored");
   error.curve = read_numbers(reader, "curve");

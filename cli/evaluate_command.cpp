@@ -85,6 +85,7 @@ void print(const char* title, const std::optional<MapError>& error, const char* 
   if (!error) return;
   std::printf("%s: mean %.2f, median %.2f, 95%% below %.2f, largest %.2f (%s), %d %s\n", title, 100 * error->mean, 100 * error->median,
               100 * error->p95, 100 * error->max, unit, error->scored, points);
+  if (error->area_mean) std::printf("  mean by area %.2f\n", 100 * *error->area_mean);
   if (error->unscored > 0) std::printf("  %d %s at dropped vertices were left out\n", error->unscored, points);
 }
 

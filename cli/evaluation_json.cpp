@@ -48,6 +48,7 @@ std::string json_of(const std::optional<MapError>& error) {
   object.add("p95", error->p95);
   object.add("max", error->max);
   object.add("auc", error->auc);
+  object.add("area_mean", error->area_mean ? number(*error->area_mean) : "null");
   object.add("scored", error->scored);
   object.add("unscored", error->unscored);
   object.add("curve", list(error->curve));

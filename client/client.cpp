@@ -186,7 +186,8 @@ api::PointMatch Client::match_points(const api::MatchRequest& request) const {
 }
 
 api::Evaluation Client::evaluate(const api::EvaluationRequest& request) const {
-  Request post = send_json("POST", "/evaluations", api::to_text(api::to_json(request)), true);
+  const std::string body = api::to_text(api::to_json(request));
+  Request post = send_json("POST", "/evaluations", body, true);
   post.query = {{"wait", seconds(longest_wait)}};
   post.wait = longest_wait;
   return parse<api::Evaluation>(transport_->send(post));

@@ -42,7 +42,15 @@ GroundTruth landmark_truth(const api::LandmarkTruth& lists, std::int32_t base, s
 
 std::optional<api::MapError> error_of(const std::optional<MapError>& error) {
   if (!error) return std::nullopt;
-  return api::MapError{error->mean, error->median, error->p95, error->max, error->auc, error->scored, error->unscored, error->curve};
+  return api::MapError{.mean = error->mean,
+                       .median = error->median,
+                       .p95 = error->p95,
+                       .max = error->max,
+                       .auc = error->auc,
+                       .area_mean = error->area_mean,
+                       .scored = error->scored,
+                       .unscored = error->unscored,
+                       .curve = error->curve};
 }
 
 api::Continuity continuity_of(const Continuity& continuity) {

@@ -34,16 +34,18 @@ inline constexpr double curve_end = 0.25;
 [[nodiscard]] std::vector<double> curve_thresholds();
 
 /// Distances between images and truth. Geodesic ones are divided by the square root of the area that they lie on, and biharmonic ones
-/// are those of the surface at unit area. All zero when nothing was scored. Landmarks count alike, whatever area they stand for.
+/// are those of the surface at unit area. All zero when nothing was scored. But for `area_mean`, landmarks count alike, whatever area they
+/// stand for.
 struct MapError {
   double mean = 0;
   double median = 0;
   double p95 = 0;
   double max = 0;
-  double auc = 0;             ///< area under the cumulative curve from 0 to curve_end, divided by curve_end: 1 for a perfect map
-  std::vector<double> curve;  ///< (curve_steps + 1): fraction of the distances that are at most each threshold; empty if none
-  std::int32_t scored = 0;    ///< landmarks that the figures are about
-  std::int32_t unscored = 0;  ///< landmarks at a dropped vertex of either shape
+  double auc = 0;                     ///< area under the cumulative curve from 0 to curve_end, divided by curve_end: 1 for a perfect map
+  std::vector<double> curve{};        ///< (curve_steps + 1): fraction of the distances that are at most each threshold; empty if none
+  std::optional<double> area_mean{};  ///< by the area of the source round each vertex; where the landmarks are dense
+  std::int32_t scored = 0;            ///< landmarks that the figures are about
+  std::int32_t unscored = 0;          ///< landmarks at a dropped vertex of either shape
 };
 
 /// What the map does to the edges and faces of the source. Lengths are relative to the square roots of the areas, so that an isometry

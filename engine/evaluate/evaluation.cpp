@@ -17,9 +17,17 @@ using Clock = std::chrono::steady_clock;
 
 bool has_eigenbasis(const PreprocessedShape& shape) { return shape.eigenvectors.size() > 0; }
 
-/// The integral of the squared biharmonic distance over the map's source.
-double integral(const PreprocessedShape& source, const PreprocessedShape& target, const ScoredLandmarks& scored, const Progress& progress) {
-  return integral_of_squares(source.surface, scored.sources, biharmonic_distances(target, scored.images, scored.truths, progress));
+/// With the mean by area where the landmarks are dense on the source.
+MapError summary(const ScoredLandmarks& scored, const std::vector<double>& distances, const Surface& source, bool dense) {
+  MapError error = summarize(distances, scored.unscored);
+  if (dense && error.scored > 0) error.area_mean = mean_by_area(source, scored.sources, distances);
+  return error;
+}
+
+/// Of the squared distances, over the source of the map that they were scored with.
+double integral_of_squares(const Surface& source, const ScoredLandmarks& scored, std::vector<double> distances) {
+  for (double& distance : distances) distance *= distance;
+  return mean_by_area(source, scored.sources, distances);
 }
 
 std::vector<Landmark> turned_round(const std::vector<Landmark>& landmarks) {
@@ -31,30 +39,28 @@ std::vector<Landmark> turned_round(const std::vector<Landmark>& landmarks) {
 void measure_errors(Evaluation& result, const PreprocessedShape& source, const PreprocessedShape& target, const Correspondence& map,
                     const Correspondence* reverse, const GroundTruth& truth, const Progress& progress, int threads) {
   if (truth.direct.empty()) return;
-  result.geodesic = geodesic_error(map, target.surface, truth.direct, progress, threads);
+  const ScoredLandmarks scored = score_landmarks(map, target.surface, truth.direct);
+  result.geodesic = summary(scored, relative_distances(scored, target.surface, progress, threads), source.surface, truth.dense);
   if (!truth.mirrored.empty()) {
     result.mirrored = geodesic_error(map, target.surface, truth.mirrored, progress, threads);
     result.flipped = result.mirrored->mean < result.geodesic->mean;
   }
   if (!has_eigenbasis(target)) return;
-  const ScoredLandmarks scored = score_landmarks(map, target.surface, truth.direct);
   const std::vector<double> distances = biharmonic_distances(target, scored.images, scored.truths, progress);
-  result.biharmonic = summarize(distances, scored.unscored);
+  result.biharmonic = summary(scored, distances, source.surface, truth.dense);
   if (!truth.dense || reverse == nullptr || !has_eigenbasis(source)) return;
   const ScoredLandmarks back = score_landmarks(*reverse, source.surface, turned_round(truth.direct));
+  const std::vector<double> distances_back = biharmonic_distances(source, back.images, back.truths, progress);
   result.symmetric_integral =
-      std::sqrt(integral_of_squares(source.surface, scored.sources, distances) + integral(target, source, back, progress));
+      std::sqrt(integral_of_squares(source.surface, scored, distances) + integral_of_squares(target.surface, back, distances_back));
 }
 
 void measure_bijectivity(Evaluation& result, const PreprocessedShape& source, const PreprocessedShape& target, const Correspondence& map,
                          const Correspondence& reverse, const Progress& progress, int threads) {
   const ScoredLandmarks trips = round_trips(map, reverse, source.surface, target.surface, progress);
-  std::vector<double> distances = geodesic_distances(source.surface, trips.truths, trips.images, progress, threads);
-  const double unit = unit_length(source.surface);
-  for (double& distance : distances) distance /= unit;
-  result.bijectivity = summarize(std::move(distances), trips.unscored);
+  result.bijectivity = summary(trips, relative_distances(trips, source.surface, progress, threads), source.surface, true);
   if (!has_eigenbasis(source)) return;
-  result.bijectivity_biharmonic = summarize(biharmonic_distances(source, trips.images, trips.truths, progress), trips.unscored);
+  result.bijectivity_biharmonic = summary(trips, biharmonic_distances(source, trips.images, trips.truths, progress), source.surface, true);
 }
 
 }  // namespace

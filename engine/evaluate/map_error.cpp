@@ -61,16 +61,20 @@ MapError summarize(std::vector<double> distances, std::int32_t unscored) {
   return result;
 }
 
-MapError geodesic_error(const Correspondence& map, const Surface& target, std::span<const Landmark> truth, const Progress& progress,
-                        int threads) {
-  const ScoredLandmarks scored = score_landmarks(map, target, truth);
+std::vector<double> relative_distances(const ScoredLandmarks& scored, const Surface& target, const Progress& progress, int threads) {
   std::vector<double> distances = geodesic_distances(target, scored.truths, scored.images, progress, threads);
   const double unit = unit_length(target);
   for (double& distance : distances) distance /= unit;
-  return summarize(std::move(distances), scored.unscored);
+  return distances;
 }
 
-double integral_of_squares(const Surface& source, std::span<const std::int32_t> sources, std::span<const double> distances) {
+MapError geodesic_error(const Correspondence& map, const Surface& target, std::span<const Landmark> truth, const Progress& progress,
+                        int threads) {
+  const ScoredLandmarks scored = score_landmarks(map, target, truth);
+  return summarize(relative_distances(scored, target, progress, threads), scored.unscored);
+}
+
+double mean_by_area(const Surface& source, std::span<const std::int32_t> sources, std::span<const double> values) {
   const Eigen::VectorXd areas = vertex_areas(source.mesh.vertices, source.mesh.faces);
   // Welded vertices, and sources with several landmarks, share the area of their place.
   std::vector<int> sharers(static_cast<std::size_t>(areas.size()), 0);
@@ -81,7 +85,7 @@ double integral_of_squares(const Surface& source, std::span<const std::int32_t> 
   for (std::size_t i = 0; i < sources.size(); ++i) {
     if (vertex_of(i) < 0) continue;
     const double share = areas[vertex_of(i)] / sharers[static_cast<std::size_t>(vertex_of(i))];
-    sum += share * distances[i] * distances[i];
+    sum += share * values[i];
     area += share;
   }
   return area > 0 ? sum / area : 0;

@@ -32,8 +32,12 @@ struct ScoredLandmarks {
 [[nodiscard]] MapError geodesic_error(const Correspondence& map, const Surface& target, std::span<const Landmark> truth,
                                       const Progress& progress = {}, int threads = 1);
 
-/// The integral of the square of `distances` over the source at unit area, by the areas round its vertices. distances[i] belongs to
-/// uploaded vertex sources[i]; vertices that do not occur count as the mean of those that do. 0 where none has an area.
-[[nodiscard]] double integral_of_squares(const Surface& source, std::span<const std::int32_t> sources, std::span<const double> distances);
+/// Distances between images and truths along the target's surface (geodesic_distances()), divided by the square root of its area.
+[[nodiscard]] std::vector<double> relative_distances(const ScoredLandmarks& scored, const Surface& target, const Progress& progress,
+                                                     int threads);
+
+/// The mean of `values` by the areas of the source round its vertices, which is their integral over the source at unit area. values[i]
+/// belongs to uploaded vertex sources[i]; vertices that do not occur count as the mean of those that do. 0 where none has an area.
+[[nodiscard]] double mean_by_area(const Surface& source, std::span<const std::int32_t> sources, std::span<const double> values);
 
 }  // namespace spherematch

@@ -92,8 +92,7 @@ std::string polyline(const LinePicture& picture, const PictureLine& drawn, std::
   return svg + "\"/>\n";
 }
 
-std::string legend_entry(std::size_t row, std::string_view name, std::string_view colour) {
-  const double y = bottom - 14 - 18 * static_cast<double>(row);
+std::string legend_entry(double y, std::string_view name, std::string_view colour) {
   return line(right - 230, y, right - 202, y, colour) + text_at(right - 194, y + 4, "start", name);
 }
 
@@ -104,7 +103,9 @@ std::string encode_svg(const LinePicture& picture, std::span<const PictureLine> 
                     "\" viewBox=\"0 0 " + number(width, 0) + " " + number(height, 0) + "\" font-family=\"sans-serif\" font-size=\"12\">\n" +
                     "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" + axes(picture);
   for (std::size_t i = 0; i < lines.size(); ++i) svg += polyline(picture, lines[i], colours[i % colours.size()]);
-  for (std::size_t i = 0; i < lines.size(); ++i) svg += legend_entry(lines.size() - 1 - i, lines[i].name, colours[i % colours.size()]);
+  constexpr double row = 18;
+  double y = picture.legend_at_top ? top + row : bottom + 4 - row * static_cast<double>(lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i, y += row) svg += legend_entry(y, lines[i].name, colours[i % colours.size()]);
   return svg + "</svg>\n";
 }
 

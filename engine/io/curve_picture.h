@@ -22,7 +22,8 @@ struct LinePicture {
   std::string y_axis;
   double x_end = 1;  ///< positive, as y_end
   double y_end = 1;
-  bool percent = false;  ///< y is labelled as a share
+  bool percent = false;        ///< y is labelled as a share
+  bool legend_at_top = false;  ///< else at the bottom, both on the right
 };
 
 /// SVG of 640 x 480 with axes, a legend and one line for each entry; colours repeat after eight. The bytes depend on the arguments alone.

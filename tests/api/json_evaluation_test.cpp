@@ -28,7 +28,8 @@ TEST(JsonEvaluation, AnswersSurviveTheJourney) {
   Evaluation answer;
   answer.src = "a";
   EXPECT_EQ(from_text<Evaluation>(to_text(to_json(answer))), answer);
-  answer.geodesic = MapError{.mean = 1, .median = 2, .p95 = 3, .max = 4, .auc = 0.5, .scored = 6, .unscored = 7, .curve = {0, 0.5, 1}};
+  answer.geodesic =
+      MapError{.mean = 1, .median = 2, .p95 = 3, .max = 4, .auc = 0.5, .area_mean = 1.5, .scored = 6, .unscored = 7, .curve = {0, 0.5, 1}};
   answer.mirrored = answer.biharmonic = answer.bijectivity = answer.bijectivity_biharmonic = MapError{};
   answer.flipped = false;
   answer.symmetric_integral = 0.25;

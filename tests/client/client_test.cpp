@@ -190,9 +190,9 @@ TEST_F(ClientTest, AnEvaluationIsAskedForAsJson) {
   asked.truth = api::LandmarkTruth{.source = {1, 2}, .target = {3, 4}, .mirrored = std::nullopt};
   server.Post("/evaluations", [&](const httplib::Request& request, httplib::Response& response) {
     EXPECT_EQ(api::from_text<api::EvaluationRequest>(request.body), asked);
-    EXPECT_EQ(request.get_param_value("wait"), "60");
+    EXPECT_EQ(request.get_param_value("wait"), "60.000000");
     api::Evaluation evaluation;
-    evaluation.geodesic = api::MapError{.mean = 0.25, .scored = 2};
+    evaluation.geodesic.emplace().scored = 2;
     response.set_content(api::to_text(api::to_json(evaluation)), "application/json");
   });
   start();

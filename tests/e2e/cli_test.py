@@ -124,7 +124,7 @@ class CliTest(support.TestCase):
             self.assertEqual(self.run_cli('match', 'a.off', target + '.off', '--store', self.store, '-o', target + '.npz').returncode, 0)
         done = self.run_cli('evaluate', 'a.off', 'a.off', 'a.npz')
         self.assertEqual((done.returncode, done.stderr), (0, ''))
-        self.assertRegex(done.stdout, r'^error: mean 0\.0\d, median 0\.0\d, .* 162 landmarks\nedges: .*; 0 of 480 torn\nfaces: .*\ncoverage: .*\n$')
+        self.assertRegex(done.stdout, r'^error: mean 0\.0\d, median 0\.0\d, .* 162 landmarks\n  mean by area 0\.0\d\nedges: .*; 0 of 480 torn\nfaces: .*\ncoverage: .*\n$')
         with open(self.place + '/some.vts', 'w') as file:
             file.write('1\n20\n162\n')
         with open(self.place + '/others.vts', 'w') as file:

@@ -123,6 +123,7 @@ TEST_F(OnTheSphere, TheIdentityIsPerfect) {
     EXPECT_EQ(error->scored, n);
     EXPECT_EQ(error->curve, std::vector<double>(curve_steps + 1, 1.0));
     EXPECT_NEAR(error->auc, 1, 1e-12);
+    EXPECT_EQ(error->area_mean, 0);
   }
   EXPECT_EQ(*result.symmetric_integral, 0);
   EXPECT_FALSE(result.flipped);
@@ -141,6 +142,8 @@ TEST_F(OnTheSphere, HalfATurnHasTheIntegralOfItsKnownDistances) {
     arcs += std::acos(std::clamp(cosine_of_half_turn(v), -1.0, 1.0)) / n;
   }
   EXPECT_NEAR(*result.symmetric_integral / std::sqrt(2 * integral), 1, 0.01);
+  EXPECT_NEAR(*result.geodesic->area_mean / result.geodesic->mean, 1, 0.01) << "the vertices stand for nearly equal areas";
+  EXPECT_NE(*result.geodesic->area_mean, result.geodesic->mean);
   const double mean = arcs / std::sqrt(4 * std::numbers::pi);
   EXPECT_GT(result.geodesic->mean, mean * 0.998);
   EXPECT_LT(result.geodesic->mean, mean * 1.04);
@@ -171,6 +174,7 @@ TEST_F(OnTheSphere, FlippedIsWhatIsNearerToTheMirroredTruth) {
   EXPECT_TRUE(*flipped.flipped);
   EXPECT_EQ(flipped.mirrored->max, 0);
   EXPECT_FALSE(flipped.biharmonic) << "without an eigenbasis";
+  EXPECT_FALSE(flipped.geodesic->area_mean) << "not said to be dense";
   EXPECT_FALSE(*evaluate_map(surface_alone, surface_alone, test::identity_map(*mesh), nullptr, truth, {}, 1).flipped);
 }
 
@@ -227,16 +231,16 @@ TEST(Summary, CurvesCountWhatIsWithinEachThreshold) {
   EXPECT_TRUE(summarize({}, 2).curve.empty());
 }
 
-TEST(Integral, CountsAreasAndSharesThem) {
+TEST(MeanByArea, CountsAreasAndSharesThem) {
   const TriMesh sphere = test::icosphere(2);
   const Surface surface = test::surface_of(sphere);
   const Eigen::VectorXd areas = vertex_areas(sphere.vertices, sphere.faces);
   const std::vector<std::int32_t> two{0, 40};  // of valence five and six
-  EXPECT_NEAR(integral_of_squares(surface, two, std::vector<double>{2, 2}), 4, 1e-12);
-  EXPECT_NEAR(integral_of_squares(surface, two, std::vector<double>{1, 0}), areas[0] / (areas[0] + areas[40]), 1e-12);
+  EXPECT_NEAR(mean_by_area(surface, two, std::vector<double>{2, 2}), 2, 1e-12);
+  EXPECT_NEAR(mean_by_area(surface, two, std::vector<double>{1, 0}), areas[0] / (areas[0] + areas[40]), 1e-12);
   const std::vector<std::int32_t> shared{0, 0, 40};
-  EXPECT_NEAR(integral_of_squares(surface, shared, std::vector<double>{1, 1, 0}), areas[0] / (areas[0] + areas[40]), 1e-12);
-  EXPECT_EQ(integral_of_squares(surface, {}, {}), 0);
+  EXPECT_NEAR(mean_by_area(surface, shared, std::vector<double>{1, 1, 0}), areas[0] / (areas[0] + areas[40]), 1e-12);
+  EXPECT_EQ(mean_by_area(surface, {}, {}), 0);
 }
 
 }  // namespace
