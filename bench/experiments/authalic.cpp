@@ -52,8 +52,8 @@ Json to_json(const std::vector<Measured>& rows, const ExperimentSettings& settin
 std::string picture(const std::vector<Measured>& rows, const std::vector<Variant>& variants) {
   LinePicture frame{
       .title = "Authalic evolution", .x_axis = "authalic steps", .y_axis = "D(S, T)", .x_end = 1, .y_end = 0, .legend_at_top = true};
-  std::vector<PictureLine> lines;
-  for (const Variant& variant : variants) lines.push_back({variant.name, {}});
+  std::vector<PictureLine> lines(variants.size());
+  for (std::size_t v = 0; v < lines.size(); ++v) lines[v].name = variants[v].name;
   for (const Measured& row : rows) {
     frame.x_end = std::max(frame.x_end, static_cast<double>(row.steps));
     for (std::size_t v = 0; v < lines.size(); ++v) {

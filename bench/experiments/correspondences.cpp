@@ -30,6 +30,7 @@ std::vector<Pair> pairs_of(std::size_t shapes, int most) {
 void run_class(const std::vector<std::filesystem::path>& files, const ExperimentSettings& settings, const std::vector<Variant>& variants,
                std::vector<VariantResults>& results) {
   std::vector<std::shared_ptr<const PreprocessedShape>> shapes;
+  shapes.reserve(files.size());
   for (const auto& file : files) {
     shapes.push_back(std::make_shared<const PreprocessedShape>(preprocess(read_shape(file), settings.preparation(), {}, settings.threads)));
   }
@@ -51,11 +52,9 @@ void run_class(const std::vector<std::filesystem::path>& files, const Experiment
 
 void run_correspondences(const ExperimentSettings& settings) {
   const std::vector<Variant> variants = variants_named(settings.variants);
-  std::vector<VariantResults> all;
-  for (const Variant& variant : variants) all.push_back({variant.name, {}});
+  std::vector<VariantResults> all = no_results(variants);
   for (const auto& [name, files] : classes_in(settings.places, settings.whole_folders, 2)) {
-    std::vector<VariantResults> results;
-    for (const Variant& variant : variants) results.push_back({variant.name, {}});
+    std::vector<VariantResults> results = no_results(variants);
     run_class(files, settings, variants, results);
     std::printf("%s\n", name.c_str());
     print(results);

@@ -46,6 +46,12 @@ Json variant_json(const VariantResults& results) {
 
 }  // namespace
 
+std::vector<VariantResults> no_results(const std::vector<Variant>& variants) {
+  std::vector<VariantResults> results(variants.size());
+  for (std::size_t v = 0; v < variants.size(); ++v) results[v].name = variants[v].name;
+  return results;
+}
+
 MapError average(const VariantResults& results, ErrorMember error) {
   MapError mean;
   for (const PairEvaluation& pair : results.pairs) mean.scored += pair.evaluation.*error ? 1 : 0;

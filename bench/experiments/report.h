@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/experiments/settings.h"
+#include "bench/experiments/variants.h"
 #include "engine/data/evaluation.h"
 
 namespace spherematch::bench {
@@ -24,6 +25,9 @@ struct VariantResults {
   std::string name;
   std::vector<PairEvaluation> pairs;
 };
+
+/// Nothing measured yet.
+[[nodiscard]] std::vector<VariantResults> no_results(const std::vector<Variant>& variants);
 
 using ErrorMember = std::optional<MapError> Evaluation::*;
 

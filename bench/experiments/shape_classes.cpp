@@ -26,7 +26,7 @@ std::string bytes_of(const fs::path& file) {
 }
 
 std::string class_of(const fs::path& file, bool whole_folders) {
-  const std::string folder = fs::absolute(file).parent_path().filename().string();
+  std::string folder = fs::absolute(file).parent_path().filename().string();
   if (whole_folders) return folder;
   const std::string name = file.stem().string();
   return folder + "/" + name.substr(0, name.find_last_not_of("0123456789_") + 1);

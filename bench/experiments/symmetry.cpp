@@ -39,8 +39,7 @@ std::vector<Landmark> symmetry_of(const std::filesystem::path& file, const Surfa
 
 void run_symmetry(const ExperimentSettings& settings) {
   const std::vector<Variant> variants = variants_named(settings.variants);
-  std::vector<VariantResults> all;
-  for (const Variant& variant : variants) all.push_back({variant.name, {}});
+  std::vector<VariantResults> all = no_results(variants);
   for (const auto& [name, files] : classes_in(settings.places, settings.whole_folders, 1)) {
     const std::optional<Representative> representative = listed_symmetry(files.front()) ? std::nullopt : representative_of(files);
     for (const auto& file : files) {

@@ -35,9 +35,9 @@ std::vector<Variant> variants_named(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const auto found = std::find_if(variants().begin(), variants().end(), [&](const Variant& variant) { return variant.name == name; });
     if (found == variants().end()) {
-      std::string known;
-      for (const Variant& variant : variants()) known += " " + variant.name;
-      throw std::runtime_error("'" + name + "' is no variant; there are" + known);
+      std::string message = "'" + name + "' is no variant; there are";
+      for (const Variant& variant : variants()) message.append(" ").append(variant.name);
+      throw std::runtime_error(message);
     }
     chosen.push_back(*found);
   }

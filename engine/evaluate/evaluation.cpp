@@ -32,6 +32,7 @@ double integral_of_squares(const Surface& source, const ScoredLandmarks& scored,
 
 std::vector<Landmark> turned_round(const std::vector<Landmark>& landmarks) {
   std::vector<Landmark> result;
+  result.reserve(landmarks.size());
   for (const Landmark& landmark : landmarks) result.push_back({landmark.target, landmark.source});
   return result;
 }
