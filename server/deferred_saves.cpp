@@ -24,6 +24,14 @@ MatchPointer DeferredSaves::find(const std::string& key) const {
   return nullptr;
 }
 
+void DeferredSaves::drop_if(const std::function<bool(std::string_view key)>& unwanted) {
+  const std::lock_guard lock(mutex_);
+  // They keep their places: work() counts on the first to stay.
+  for (Waiting& waiting : waiting_) {
+    if (unwanted(waiting.key)) waiting = {};
+  }
+}
+
 void DeferredSaves::work(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (true) {
@@ -31,7 +39,7 @@ void DeferredSaves::work(const std::stop_token& stop) {
     if (waiting_.empty()) return;  // stopped, and nothing is left
     const Save save = waiting_.front().save;
     lock.unlock();
-    save();
+    if (save) save();
     lock.lock();
     waiting_.pop_front();  // only now: until it is in the store, find() has it
   }

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "engine/data/correspondence.h"
@@ -34,9 +35,12 @@ class DeferredSaves {
   /// The result that add() got under this key, while it is not saved; else null.
   [[nodiscard]] MatchPointer find(const std::string& key) const;
 
+  /// What waits under such keys is neither found nor saved any more; what is being saved at this moment is not found. Does not wait.
+  void drop_if(const std::function<bool(std::string_view key)>& unwanted);
+
  private:
   struct Waiting {
-    std::string key;
+    std::string key;  ///< empty: dropped
     MatchPointer result;
     Save save;
   };

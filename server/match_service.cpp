@@ -64,7 +64,9 @@ std::string MatchService::key_of(const MatchQuery& query) const {
 }
 
 void MatchService::forget(const std::string& shape) {
-  memory_.erase_if([&shape](std::string_view key) { return key.find(shape) != std::string_view::npos; });
+  const auto unwanted = [&shape](std::string_view key) { return key.find(shape) != std::string_view::npos; };
+  saves_.drop_if(unwanted);
+  memory_.erase_if(unwanted);
 }
 
 MatchAnswer MatchService::get(const MatchQuery& query, Cache cache, Urgency urgency, const std::stop_token& given_up) {
@@ -87,7 +89,7 @@ void MatchService::require_room(const MatchQuery& query, Cache cache) {
       const std::lock_guard lock(mutex_);
       return flights_.contains(key);
     };
-    if (!under_way() && !find(key).result) throw;
+    if (!under_way() && !find(key, query).result) throw;
   }
 }
 
@@ -99,15 +101,18 @@ MatchAnswer MatchService::answer(const MatchQuery& query, Cache cache, Urgency u
     return {compute(query, stop), MatchSource::computed};
   }
   const std::string key = key_of(query);
-  if (MatchAnswer found = find(key); found.result) return found;
+  if (MatchAnswer found = find(key, query); found.result) return found;
   return compute_or_join(key, query, urgency, given_up);
 }
 
-MatchAnswer MatchService::find(const std::string& key) {
+MatchAnswer MatchService::find(const std::string& key, const MatchQuery& query) {
   if (MatchPointer result = memory_.find(key)) return {std::move(result), MatchSource::memory};
   if (MatchPointer result = saves_.find(key)) return {std::move(result), MatchSource::memory};
   MatchPointer result = store_.find(key);
-  if (result) memory_.put(key, result, memory_size(*result));
+  if (result) {
+    memory_.put(key, result, memory_size(*result));
+    forget_removed(query);
+  }
   return {std::move(result), MatchSource::store};
 }
 
@@ -152,7 +157,7 @@ MatchAnswer MatchService::lead(const FlightPointer& flight, const std::string& k
   std::exception_ptr error;
   try {
     // Once more: another flight may have landed between the look into the caches and the start of this one.
-    found = find(key);
+    found = find(key, query);
     if (!found.result) {
       std::optional<Gate::Permit> own;
       if (permit == nullptr) own.emplace(gate_.enter());
@@ -204,6 +209,13 @@ void MatchService::keep(const std::string& key, const MatchQuery& query, const M
     save(key, query, *result);
   } else {
     saves_.add(key, result, [this, key, query, result] { save(key, query, *result); });
+  }
+  forget_removed(query);
+}
+
+void MatchService::forget_removed(const MatchQuery& query) {
+  for (const std::string& shape : {query.src, query.tgt}) {
+    if (!shapes_.knows(shape)) forget(shape);
   }
 }
 

@@ -72,7 +72,7 @@ class MatchService {
 
   [[nodiscard]] std::string engine_version() const { return engine_.version(); }
 
-  /// Drops what is in memory of a shape that was removed; the store does so by itself.
+  /// Drops what is in memory of a shape that was removed, also what is still to be stored; the store does so by itself.
   void forget(const std::string& shape);
 
   [[nodiscard]] std::size_t memory_bytes() const { return memory_.bytes(); }
@@ -84,7 +84,7 @@ class MatchService {
   using FlightPointer = std::shared_ptr<Flight>;
 
   [[nodiscard]] MatchAnswer answer(const MatchQuery& query, Cache cache, Urgency urgency, const std::stop_token& given_up);
-  [[nodiscard]] MatchAnswer find(const std::string& key);
+  [[nodiscard]] MatchAnswer find(const std::string& key, const MatchQuery& query);
   [[nodiscard]] MatchAnswer compute_or_join(const std::string& key, const MatchQuery& query, Urgency urgency,
                                             const std::stop_token& given_up);
   /// The flight of the key; `mine` is set where there was none before.
@@ -98,6 +98,8 @@ class MatchService {
   [[nodiscard]] MatchPointer compute(const MatchQuery& query, std::stop_source& stop);
   /// In the background the result is in the store when this returns; else soon, and at the latest when this service ends.
   void keep(const std::string& key, const MatchQuery& query, const MatchPointer& result, Urgency urgency);
+  /// After something came into memory: a shape may have been removed while it was computed or read, and forget() came too early for it.
+  void forget_removed(const MatchQuery& query);
   void save(const std::string& key, const MatchQuery& query, const MatchResult& result);
 
   ShapeService& shapes_;

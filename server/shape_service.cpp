@@ -11,6 +11,7 @@
 #include "server/problem.h"
 #include "server/shape_json.h"
 #include "storage/content_id.h"
+#include "storage/error.h"
 #include "storage/upload_options.h"
 
 namespace spherematch {
@@ -145,6 +146,14 @@ void ShapeService::remove(const std::string& id) {
 }
 
 void ShapeService::require_known(const std::string& id) const { (void)record_of(id); }
+
+bool ShapeService::knows(const std::string& id) const {
+  try {
+    return is_shape_id(id) && store_.find(id);
+  } catch (const StorageError&) {
+    return true;
+  }
+}
 
 void ShapeService::cancel_preparation(const std::string& id) {
   (void)record_of(id);

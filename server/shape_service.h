@@ -61,6 +61,8 @@ class ShapeService {
 
   /// @throws ProblemError(not_found)
   void require_known(const std::string& id) const;
+  /// Also where the store cannot tell.
+  [[nodiscard]] bool knows(const std::string& id) const;
   struct Usable {
     bool ready = false;         ///< for this engine, so that require_ready() would return at once
     std::int32_t vertices = 0;  ///< of the upload

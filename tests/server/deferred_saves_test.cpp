@@ -39,6 +39,29 @@ TEST(DeferredSaves, FindsWhatIsNotSavedYet) {
   EXPECT_EQ(saves.find("a"), nullptr);
 }
 
+TEST(DeferredSaves, WhatIsDroppedIsNeitherFoundNorSaved) {
+  std::mutex disk;
+  std::vector<std::string> saved;
+  {
+    DeferredSaves saves(8);
+    const std::lock_guard busy(disk);
+    const MatchPointer kept = some_result();
+    for (const char* key : {"a1", "b1", "a2", "b2"}) {
+      saves.add(key, kept, [&, key] {
+        const std::lock_guard lock(disk);
+        saved.emplace_back(key);
+      });
+    }
+    saves.drop_if([](std::string_view key) { return key.starts_with('a'); });
+    EXPECT_EQ(saves.find("a1"), nullptr) << "though it may be about to be saved";
+    EXPECT_EQ(saves.find("a2"), nullptr);
+    EXPECT_EQ(saves.find("b1"), kept);
+    EXPECT_EQ(saves.find("b2"), kept);
+  }
+  std::erase(saved, "a1");
+  EXPECT_EQ(saved, (std::vector<std::string>{"b1", "b2"}));
+}
+
 TEST(DeferredSaves, SavesInOrderAndEverythingBeforeItEnds) {
   std::vector<int> order;
   {

@@ -1,5 +1,7 @@
 #include "server/match_service.h"
 
+#include <sqlite3.h>
+
 #include <latch>
 
 #include "server/problem.h"
@@ -196,6 +198,33 @@ TEST_F(MatchServiceTest, RemovedShapesTakeTheirResultsAlong) {
   EXPECT_EQ(remove(src).status, 204);
   EXPECT_EQ(match_service->memory_bytes(), both / 2);
   EXPECT_THROW((void)match_service->get({src, tgt, {}}), ProblemError);
+}
+
+TEST_F(MatchServiceTest, WhatIsForgottenIsNotFoundAmongTheUnsavedEither) {
+  sqlite3* other = nullptr;
+  ASSERT_EQ(sqlite3_open((directory / "store.db").c_str(), &other), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(other, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr), SQLITE_OK);  // nobody else can save
+  EXPECT_EQ(get().source, MatchSource::computed);
+  EXPECT_EQ(get().source, MatchSource::memory);
+  match_service->forget(tgt);
+  EXPECT_EQ(get().source, MatchSource::computed);
+  sqlite3_close(other);
+}
+
+TEST_F(MatchServiceTest, AResultThatComesAfterItsShapeWasRemovedIsNotKept) {
+  for (const auto urgency : {MatchService::Urgency::interactive, MatchService::Urgency::background}) {
+    const std::string removed = ready("sphere c");
+    const MatchQuery query{src, removed, {}};
+    const int before = engine.matches;
+    engine.hold_matches = true;
+    std::jthread first([&] { EXPECT_TRUE(match_service->get(query, MatchService::Cache::use, urgency).result); });
+    while (engine.matches == before) std::this_thread::yield();
+    EXPECT_EQ(remove(removed).status, 204);
+    engine.hold_matches = false;
+    first.join();
+    EXPECT_EQ(match_service->memory_bytes(), 0U);
+    EXPECT_THROW((void)match_service->get(query), ProblemError);
+  }
 }
 
 TEST_F(MatchServiceTest, EveryAnswerIsObserved) {
