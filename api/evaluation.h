@@ -40,6 +40,7 @@ struct EvaluationRequest {
   std::vector<std::array<std::int32_t, 2>> hints;
   std::string method = "default";
   std::string orientation = "preserve";
+  std::int32_t candidate = 0;  ///< 0: of the best rotation, 1: of the next best
   bool operator==(const EvaluationRequest&) const = default;
 };
 

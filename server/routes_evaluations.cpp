@@ -1,5 +1,6 @@
 // POST /evaluations: how good a match is.
 #include <array>
+#include <string>
 #include <utility>
 
 #include "api/json.h"
@@ -26,9 +27,15 @@ api::EvaluationRequest parse(HttpRequest& request) {
   }
 }
 
+int candidate_of(const api::EvaluationRequest& request, int count) {
+  if (request.candidate < count) return request.candidate;
+  throw ProblemError(api::Code::invalid_parameter, "candidate: must be in [0, " + std::to_string(count - 1) + "]");
+}
+
 MatchQuery query_of(const api::EvaluationRequest& request) {
   MatchQuery query{request.src, request.tgt, match_parameters_of(request.method, request.orientation)};
   query.parameters.both = request.both;
+  query.parameters.candidate = candidate_of(request, query.parameters.max_candidates);
   for (const auto& [source, target] : request.hints) query.parameters.hints.push_back({source, target});
   return query;
 }

@@ -21,6 +21,7 @@ TEST(JsonEvaluation, RequestsSurviveTheJourney) {
     request.hints = {{1, 2}};
     request.method = "paper";
     request.orientation = "any";
+    request.candidate = 1;
   }
 }
 

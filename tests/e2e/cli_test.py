@@ -182,6 +182,23 @@ class CliTest(support.TestCase):
         self.assertEqual(at_points['scored'], 2)
         self.assertLess(abs(at_points['median'] - at_points['mean']), 1e-12)
 
+    def test_evaluate_measures_symmetries_and_candidates(self):
+        def measured(*arguments):
+            done = self.run_cli('evaluate', 'a.off', 'a.off', *arguments, '--store', self.store, '--json', '-')
+            self.assertEqual((done.returncode, done.stderr), (0, ''))
+            return json.loads(done.stdout)
+
+        for candidate in ('0', '1'):
+            done = self.run_cli('symmetry', 'a.off', '--candidate', candidate, '--store', self.store, '-o', 'symmetry.npz')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            itself = measured('--orientation', 'reverse', '--candidate', candidate)
+            given = measured('symmetry.npz')
+            for name in ('geodesic', 'continuity', 'coverage'):
+                self.assertEqual(given[name], itself[name], (name, candidate))
+        missing = self.run_cli('evaluate', 'a.off', 'a.off', '--candidate', '7', '--store', self.store)
+        self.assertEqual(missing.returncode, 3)
+        self.assertIn('there is no candidate 7', missing.stderr)
+
     def test_errors_and_exit_codes(self):
         def fails(code, message, *arguments):
             done = self.run_cli(*arguments)

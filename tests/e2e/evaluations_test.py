@@ -52,6 +52,10 @@ class EvaluationsTest(support.TestCase):
         match = self.server.request('GET', f'/match?src={self.a}&tgt={self.b}&both=yes&fields=')
         self.assertTrue(json.loads(match.body)['cached'])
 
+    def test_the_next_best_match_can_be_measured(self):
+        best, next_best = (json.loads(self.evaluate(truth='identity', candidate=candidate).body) for candidate in (0, 1))
+        self.assertLess(best['geodesic']['mean'], next_best['geodesic']['mean'])
+
     def test_refusals(self):
         for body, code, status in ((b'', 'invalid-parameter', 400), (b'[', 'invalid-parameter', 400), (b'[' * 100, 'invalid-parameter', 400),
                                    (json.dumps({'src': self.a, 'tgt': '0' * 32}).encode(), 'not-found', 404),

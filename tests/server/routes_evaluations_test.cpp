@@ -97,6 +97,8 @@ TEST_F(RoutesEvaluations, TruthThatDoesNotFitIsRefusedBeforeAnythingIsComputed) 
   refused(R"("truth": 7)", api::Code::invalid_parameter, "truth");
   refused(R"("both": "yes")", api::Code::invalid_parameter, "both");
   refused(R"("refinement": 1)", api::Code::invalid_parameter, "refinement");
+  refused(R"("candidate": 8)", api::Code::invalid_parameter, "candidate: must be in [0, 7]");
+  refused(R"("candidate": -1)", api::Code::invalid_parameter, "candidate");
   refused(R"("method": "x")", api::Code::invalid_parameter, "method");
   EXPECT_EQ(engine.matches, 0);
 }
@@ -106,9 +108,10 @@ TEST_F(RoutesEvaluations, MatchParametersCount) {
   answer(R"("orientation": "any")");
   answer(R"("method": "paper")");
   answer(R"("hints": [[0, 1]])");
-  EXPECT_EQ(engine.matches, 4);
-  EXPECT_EQ(ask("", {{"cache", "no"}}).status, 200);
+  answer(R"("candidate": 1)");
   EXPECT_EQ(engine.matches, 5);
+  EXPECT_EQ(ask("", {{"cache", "no"}}).status, 200);
+  EXPECT_EQ(engine.matches, 6);
   for (const auto& [name, value] : {std::pair("format", "png"), std::pair("cache", "x"), std::pair("wait", "x"), std::pair("src", "x")})
     EXPECT_EQ(problem_code(ask("", {{name, value}})), api::Code::invalid_parameter) << name;
 }

@@ -193,7 +193,7 @@ class Client:
     def evaluate(self, source, target, truth=None, landmarks=None, mirrored=None, **options):
         """How good the match is, as a dict; docs/evaluation.md explains the figures. What is known: `truth`, 'identity' or one target
         vertex for each source vertex (-1 where unknown), or `landmarks`, two lists of vertices that belong together, with `mirrored`, the
-        second list with left and right exchanged. Options are base, both, biharmonic, orientation, hints, method."""
+        second list with left and right exchanged. Options are base, both, biharmonic, orientation, hints, method, candidate."""
         return json.loads(self._evaluation('json', source, target, truth, landmarks, mirrored, options))
 
     def evaluation_picture(self, source, target, truth=None, landmarks=None, mirrored=None, **options):
