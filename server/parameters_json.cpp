@@ -52,8 +52,8 @@ api::Json to_json(const PreprocessParameters& parameters) {
 api::Json to_json(const MatchParameters& parameters) {
   const auto& [rotation_time, rotation_bandwidth, max_candidates, candidate_separation, candidate_threshold, flow_times, flow_resolution,
                flow_iterations, flow_settled, flow_smoothness, finest_flow, flow_tolerance, flow_detail, flow_detail_from, mesh_flow,
-               elastic_iterations, elastic_area, elastic_signals, elastic_longest_move, elastic_settled, fine_candidates, paper_selection,
-               orientation, hints, both, candidate] = parameters;
+               elastic_iterations, elastic_area, elastic_yield, elastic_signals, elastic_longest_move, elastic_settled, fine_candidates,
+               paper_selection, orientation, hints, both, candidate] = parameters;
   api::Json pairs = api::Json::array();
   for (const auto& [source, target] : hints) pairs.push_back({source, target});
   return {{"rotation_time", rotation_time},
@@ -73,6 +73,7 @@ api::Json to_json(const MatchParameters& parameters) {
           {"mesh_flow", mesh_flow},
           {"elastic_iterations", elastic_iterations},
           {"elastic_area", elastic_area},
+          {"elastic_yield", elastic_yield},
           {"elastic_signals", elastic_signals},
           {"elastic_longest_move", elastic_longest_move},
           {"elastic_settled", elastic_settled},

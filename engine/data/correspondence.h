@@ -36,7 +36,7 @@ struct MatchResult {
   bool reversed = false;   ///< the source's mirror image was matched
   std::vector<CandidateSummary> candidates;  ///< in order of falling correlation
   MatchQuality quality;
-  StageSeconds seconds;  ///< "rotation", "flow", "selection", "correspondence", "total"
+  StageSeconds seconds;  ///< "rotation", "flow", "refinement", "correspondence", "total"
 };
 
 }  // namespace spherematch

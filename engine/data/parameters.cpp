@@ -85,6 +85,7 @@ void MatchParameters::validate() const {
   require(elastic_iterations.size() <= 3, "elastic_iterations", "must hold at most 3 numbers");
   for (const int n : elastic_iterations) require(n >= 1 && n <= 100, "elastic_iterations", "must be 1 to 100");
   require(elastic_area > 0 && elastic_area <= 1e6, "elastic_area", "must be above 0 and at most 1000000");
+  require(positive(elastic_yield), "elastic_yield", "must be positive");
   require(elastic_signals >= 0 && elastic_signals <= 1e6, "elastic_signals", "must be 0 to 1000000");
   require(positive(elastic_longest_move) && elastic_longest_move <= 1, "elastic_longest_move", "must be above 0 and at most 1");
   require(elastic_settled >= 0 && elastic_settled < 1, "elastic_settled", "must be at least 0 and below 1");

@@ -86,11 +86,12 @@ struct MatchParameters {
   bool mesh_flow = false;         ///< rasterises the moved meshes at each iteration as the paper does: slower, for comparison
 
   // Elastic flow (engine/register/elastic_flow.h)
-  std::vector<int> elastic_iterations{2, 4};  ///< at most, on icospheres of 642, 2562, 10242 nodes; none for the optical flow alone
+  std::vector<int> elastic_iterations{4, 8};  ///< at most, on icospheres of 2562, 10242, 40962 nodes; none for the optical flow alone
   double elastic_area = 1;                    ///< weight of changes of area, against that of losses of shape
-  double elastic_signals = 30;                ///< weight of differences of signals
-  double elastic_longest_move = 0.1;          ///< radians, of a step
-  double elastic_settled = 0.005;             ///< radians: a level ends with the first step that moves no node farther
+  double elastic_yield = 1;                   ///< strain from which a triangle resists less and less
+  double elastic_signals = 20;                ///< weight of differences of signals
+  double elastic_longest_move = 0.1;          ///< radians, of a node in a step
+  double elastic_settled = 0.005;             ///< radians: a level ends with the first step that would move no node farther
 
   // Candidate selection (engine/register/selection.h)
   int fine_candidates = 2;       ///< only this many best ones go on after the coarser half of the levels

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "engine/data/parallel.h"
 #include "engine/register/optical_flow.h"
@@ -25,6 +26,9 @@ constexpr double kCoarseGuide = 1.2, kFineGuide = 0.5;
 /// limb back to front, onto itself, is helped by the signals of the metric, which are exactly equal, while the right one takes a limb to
 /// another in another pose. Between different shapes backs and chests differ too much to be compared.
 constexpr double kCurvatureWeight = 0.15;
+
+/// Of the mean square of strains, by whose power the signals' cost is multiplied: a wrong registration strains the surfaces more, too.
+constexpr double kStrainExponent = 0.125;
 
 constexpr int kNodes = 64;  ///< resolution of the grid on which registrations are followed and compared
 
@@ -59,28 +63,35 @@ FlowParameters flow_levels(const MatchParameters& parameters, std::size_t first,
   return flow;
 }
 
-/// Tables of icospheres, each made at most once in a process: that of the finest takes 50 ms.
+/// Where there is no elastic flow the map has as many nodes as it can.
+constexpr std::size_t kFinestNodes = 2;
+
+/// Icospheres of 2562, 10242, 40962 nodes, each made at most once in a process: a table of 10242 takes 15 ms.
 const NodeMesh& node_mesh(std::size_t level) {
   if (level == 0) {
-    static const NodeMesh coarse(3, kNodes);
+    static const NodeMesh coarse(4);
     return coarse;
   }
   if (level == 1) {
-    static const NodeMesh middle(4, kNodes);
+    static const NodeMesh middle(5);
     return middle;
   }
-  static const NodeMesh fine(5, 2 * kNodes);
+  static const NodeMesh fine(6);
   return fine;
 }
 
 ElasticParameters elastic_level(const MatchParameters& parameters, int iterations) {
-  return {parameters.elastic_area, parameters.elastic_signals, parameters.elastic_longest_move, parameters.elastic_settled, iterations};
+  return {.area = parameters.elastic_area,
+          .yield = parameters.elastic_yield,
+          .signals = parameters.elastic_signals,
+          .longest_move = parameters.elastic_longest_move,
+          .settled = parameters.elastic_settled,
+          .iterations = iterations};
 }
 
-/// Mean distance of the hints on the sphere where both shapes are registered, relative to the square root of its area.
-double hint_distance(const Registration& registration, const HintDirections& hints) {
-  const Points s = registration.source->warp().forward(hints.source), t = registration.target->warp().forward(hints.target);
-  return (s - t).rowwise().norm().mean() / std::sqrt(4 * std::numbers::pi);
+/// Mean distance of the hints where both shapes are registered, relative to the square root of the sphere's area.
+double hint_distance(const Points& source, const Points& target) {
+  return (source - target).rowwise().norm().mean() / std::sqrt(4 * std::numbers::pi);
 }
 
 /// Of the channels of PairSide::selection_channels.
@@ -90,12 +101,39 @@ std::vector<double> selection_weights(const Pair& pair) {
   return weights;
 }
 
-void judge(Registration& registration, const Pair& pair, int nodes) {
-  const Points s = registration.source->origins(nodes), t = registration.target->origins(nodes);
+/// After the optical flow, at the points of a grid.
+void judge_on_grid(Registration& registration, const Pair& pair, int resolution) {
+  const Points s = registration.source->origins(resolution), t = registration.target->origins(resolution);
   const RegisteredSignals f{pair.source.shape.signals(), pair.source.selection_channels, s};
   const RegisteredSignals g{pair.target.shape.signals(), pair.target.selection_channels, t};
-  registration.score = pair.parameters.paper_selection ? paper_cost(f, g, nodes) : registration_cost(f, g, selection_weights(pair), nodes);
-  if (pair.hints.source.rows() > 0) registration.score += kHintWeight * hint_distance(registration, pair.hints);
+  if (pair.parameters.paper_selection) {
+    registration.score = paper_cost(f, g, resolution);
+  } else {
+    const Eigen::VectorXd areas = cell_areas(resolution).replicate(1, resolution).reshaped<Eigen::RowMajor>();
+    registration.score = registration_cost(f, g, selection_weights(pair), areas);
+  }
+  if (pair.hints.source.rows() == 0) return;
+  const Points from = registration.source->warp().forward(pair.hints.source), to = registration.target->warp().forward(pair.hints.target);
+  registration.score += kHintWeight * hint_distance(from, to);
+}
+
+/// After the elastic flow, at the nodes.
+void judge_at_nodes(Registration& registration, const Pair& pair) {
+  const NodeMap& map = *registration.map;
+  const RegisteredSignals f{pair.source.shape.signals(), pair.source.selection_channels, map.source()};
+  const RegisteredSignals g{pair.target.shape.signals(), pair.target.selection_channels, map.target()};
+  registration.score =
+      registration_cost(f, g, selection_weights(pair), map.mesh().areas()) * std::pow(registration.elastic.strain, kStrainExponent);
+  if (pair.hints.source.rows() > 0) registration.score += kHintWeight * hint_distance(map.forward(pair.hints.source), pair.hints.target);
+}
+
+/// One level of the elastic flow.
+void relax(Registration& registration, const Pair& pair, std::size_t level, const Progress& progress, int threads) {
+  NodeMap map(node_mesh(level), *registration.source, *registration.target);
+  if (registration.map) map.follow(*registration.map);
+  registration.elastic = flow_elastically(map, *pair.source.elastic, *pair.target.elastic, pair.hints,
+                                          elastic_level(pair.parameters, pair.parameters.elastic_iterations[level]), progress, threads);
+  registration.map.emplace(std::move(map));
 }
 
 }  // namespace
@@ -140,7 +178,7 @@ std::vector<std::size_t> flow_candidates(std::vector<Registration>& registration
       if (registration.guided)
         pull_together(*registration.source, *registration.target, pair.hints, first == 0 ? kCoarseGuide : kFineGuide);
       flow_together(*registration.source, *registration.target, plan, progress);
-      judge(registration, pair, plan.nodes());
+      judge_on_grid(registration, pair, plan.nodes());
     });
     std::stable_sort(order.begin(), order.end(), better);
   };
@@ -156,17 +194,22 @@ std::vector<std::size_t> flow_candidates(std::vector<Registration>& registration
   }
   flow(coarse, levels);
 
-  const std::vector<int>& iterations = pair.parameters.elastic_iterations;
-  for (std::size_t level = 0; level < iterations.size(); ++level) {
+  if (!pair.parameters.elastic_iterations.empty()) {
+    const int threads_each = std::max(1, threads / static_cast<int>(order.size()));
     run_parallel(order.size(), threads, [&](std::size_t i) {
       Registration& registration = registrations[order[i]];
-      registration.elastic = flow_elastically(*registration.source, *pair.source.elastic, *registration.target, *pair.target.elastic,
-                                              pair.hints, node_mesh(level), elastic_level(pair.parameters, iterations[level]), progress);
-      judge(registration, pair, kNodes);
+      relax(registration, pair, 0, progress, threads_each);
+      judge_at_nodes(registration, pair);
     });
     std::stable_sort(order.begin(), order.end(), better);
   }
   return order;
+}
+
+void refine(const Pair& pair, Registration& registration, const Progress& progress, int threads) {
+  for (std::size_t level = 1; level < pair.parameters.elastic_iterations.size(); ++level)
+    relax(registration, pair, level, progress, threads);
+  if (!registration.map) registration.map.emplace(node_mesh(kFinestNodes), *registration.source, *registration.target);
 }
 
 }  // namespace spherematch

@@ -12,6 +12,7 @@
 #include "engine/register/flow_side.h"
 #include "engine/register/hints.h"
 #include "engine/register/match_shape.h"
+#include "engine/register/node_map.h"
 
 namespace spherematch {
 
@@ -41,16 +42,21 @@ struct Registration {
   bool guided;            ///< pulled together at the hints before the flow
   std::unique_ptr<FlowSide> source, target;
   double score = 0;
-  ElasticEnergy elastic = {};  ///< after the elastic flow
+  std::optional<NodeMap> map = {};  ///< since the elastic flow
+  ElasticEnergy elastic = {};       ///< of its last level
 };
 
 /// Every rotation's registration before the flow; with hints once as it is and once guided by them.
 [[nodiscard]] std::vector<Registration> start_registrations(const Pair& pair, const std::vector<Eigen::Matrix3d>& rotations);
 
-/// Flows the registrations, all of them through the coarse levels and the most promising ones to the end, and scores them. Returns the
-/// indices of those that came to the end, best first. Registrations are independent tasks on up to `threads` threads.
+/// Flows the registrations, all of them through the coarse levels and the most promising ones through the others and the first level of the
+/// elastic flow, and scores them. Returns the indices of the latter, best first. Uses up to `threads` threads.
 /// @throws EngineError(cancelled)
 [[nodiscard]] std::vector<std::size_t> flow_candidates(std::vector<Registration>& registrations, const Pair& pair, const Progress& progress,
                                                        int threads);
+
+/// Takes one of these through the rest of the elastic flow, after which it has its final map.
+/// @throws EngineError(cancelled)
+void refine(const Pair& pair, Registration& registration, const Progress& progress, int threads);
 
 }  // namespace spherematch

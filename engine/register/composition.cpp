@@ -1,21 +1,28 @@
 #include "engine/register/composition.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 
 #include "engine/data/parallel.h"
 #include "engine/mesh/closest_point.h"
+#include "engine/mesh/laplacian.h"
 
 namespace spherematch {
 namespace {
 
 bool is_uploaded(const Surface& surface, std::int32_t face) { return surface.uploaded_corners.row(face).minCoeff() >= 0; }
 
+Eigen::Vector3d position(const TriMesh& mesh, const Location& location) {
+  Eigen::Vector3d result = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) result += location.bary[k] * mesh.vertices.row(mesh.faces(location.face, k)).transpose();
+  return result;
+}
+
 /// The corner nearest to the image in straight distance, ties to the lowest index.
 std::int32_t nearest_corner(const Surface& target, const Location& location) {
-  Eigen::Vector3d image = Eigen::Vector3d::Zero();
-  for (int k = 0; k < 3; ++k) image += location.bary[k] * target.mesh.vertices.row(target.mesh.faces(location.face, k)).transpose();
+  const Eigen::Vector3d image = position(target.mesh, location);
   std::int32_t best = -1;
   double best_distance = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
@@ -41,6 +48,20 @@ std::vector<Location> locate_all(const Points& points, const PointLocation& targ
   return result;
 }
 
+RoundTrip round_trip(const Surface& source, const Surface& target, const std::vector<Location>& there, const std::vector<Location>& back) {
+  std::vector<Eigen::Vector3d> returned;
+  for (const Location& location : back) returned.push_back(position(source.mesh, location));
+  RoundTrip result;
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    Eigen::Vector3d end = -source.mesh.vertices.row(static_cast<Eigen::Index>(i)).transpose();
+    for (int k = 0; k < 3; ++k) end += there[i].bary[k] * returned[static_cast<std::size_t>(target.mesh.faces(there[i].face, k))];
+    result.mean += end.norm() / static_cast<double>(there.size());
+    result.largest = std::max(result.largest, end.norm());
+  }
+  const double size = std::sqrt(face_areas(source.mesh.vertices, source.mesh.faces).sum());
+  return {result.mean / size, result.largest / size};
+}
+
 Correspondence compose(const Surface& source, const Surface& target, const std::vector<Location>& locations) {
   const std::size_t n = source.surface_vertex.size();
   Correspondence map;
@@ -54,9 +75,7 @@ Correspondence compose(const Surface& source, const Surface& target, const std::
     Location location = locations[static_cast<std::size_t>(v)];
     if (!is_uploaded(target, location.face)) {
       if (!closest) closest = std::make_unique<const ClosestPoint>(target);
-      Eigen::Vector3d image = Eigen::Vector3d::Zero();
-      for (int k = 0; k < 3; ++k) image += location.bary[k] * target.mesh.vertices.row(target.mesh.faces(location.face, k)).transpose();
-      const SurfacePoint nearest = closest->query(image);
+      const SurfacePoint nearest = closest->query(position(target.mesh, location));
       location = {nearest.face, {nearest.weights[0], nearest.weights[1], nearest.weights[2]}};
     }
     const auto row = static_cast<Eigen::Index>(i);

@@ -3,9 +3,13 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <utility>
 
+#include "engine/data/parallel.h"
+#include "engine/register/composition.h"
+#include "engine/register/point_location.h"
 #include "engine/register/strain.h"
+#include "engine/sphere/orientation.h"
 
 namespace spherematch {
 namespace {
@@ -15,26 +19,53 @@ constexpr double kInertia = 1e-3;
 
 /// Of the squared distance of two points that belong together, against the mean of squared strains over the whole surface.
 constexpr double kPairWeight = 10;
+constexpr double kPairReach = 0.3;  ///< radians round a pair in which nodes are drawn along
 
-/// Of the equations' residual. At 0.05 what is smooth is left over, and flows take longer.
+/// Of the equations' residual. At 0.03 what is smooth is left over, and errors are larger by 2 percent.
 constexpr double kTolerance = 0.01;
 constexpr int kMostIterations = 200;
 
-/// A shape as the nodes see it: positions on the surface, then the compared signals.
-struct NodeValues {
-  NodeValues(const ElasticChannels& channels, const Points& origins, const NodeMesh& mesh)
-      : values(origins.rows(), 3 + static_cast<Eigen::Index>(channels.compared.size())) {
-    std::vector<Eigen::Index> read(channels.position.begin(), channels.position.end());
-    read.insert(read.end(), channels.compared.begin(), channels.compared.end());
-    channels.samples.for_each_stencil(origins, [&](Eigen::Index i, const GridSamples::Stencil& stencil) {
+/// Calls task(first, last) for runs of 0 .. count - 1 that do not depend on the number of threads.
+template <typename Task>
+void for_runs(Eigen::Index count, int threads, const Task& task) {
+  constexpr Eigen::Index kRun = 1024;
+  run_parallel(static_cast<std::size_t>((count + kRun - 1) / kRun), threads, [&](std::size_t run) {
+    const Eigen::Index first = static_cast<Eigen::Index>(run) * kRun;
+    task(first, std::min(count, first + kRun));
+  });
+}
+
+/// A shape at points of its sphere: positions on the surface, then the compared signals.
+PointValues sample(const ElasticChannels& channels, const Points& places, int threads) {
+  std::vector<Eigen::Index> read(channels.position.begin(), channels.position.end());
+  read.insert(read.end(), channels.compared.begin(), channels.compared.end());
+  PointValues values(places.rows(), static_cast<Eigen::Index>(read.size()));
+  for_runs(places.rows(), threads, [&](Eigen::Index first, Eigen::Index last) {
+    channels.samples.for_each_stencil(places.middleRows(first, last - first), [&](Eigen::Index i, const GridSamples::Stencil& stencil) {
       Eigen::Index pack = -1;
       GridSamples::Pack four;
       for (std::size_t c = 0; c < read.size(); ++c) {
         if (read[c] / 4 != pack) four = channels.samples(stencil, static_cast<std::size_t>(pack = read[c] / 4));
-        values(i, static_cast<Eigen::Index>(c)) = four[read[c] % 4];
+        values(first + i, static_cast<Eigen::Index>(c)) = four[read[c] % 4];
       }
     });
-    derivatives = mesh.derivatives(values);
+  });
+  return values;
+}
+
+TriangleCorners corners(const PointValues& values, const Triangles& faces, Eigen::Index face) {
+  TriangleCorners result;
+  for (int k = 0; k < 3; ++k) result[static_cast<std::size_t>(k)] = values.row(faces(face, k)).head<3>();
+  return result;
+}
+
+/// The shape whose nodes move in a step: its values there, and how these change.
+struct MovingSide {
+  MovingSide(const PointValues& at_nodes, const Points& places, const NodeMesh& mesh, int threads)
+      : values(at_nodes), frames(static_cast<std::size_t>(places.rows())), derivatives(values.rows(), 2 * values.cols()) {
+    for (Eigen::Index i = 0; i < places.rows(); ++i) frames[static_cast<std::size_t>(i)] = tangent_frame(places.row(i));
+    for_runs(places.rows(), threads,
+             [&](Eigen::Index first, Eigen::Index last) { mesh.differentiate(values, places, frames, first, last, derivatives); });
   }
 
   [[nodiscard]] double derivative(Eigen::Index node, Eigen::Index channel, int direction) const {
@@ -43,17 +74,17 @@ struct NodeValues {
 
   [[nodiscard]] MovingTriangle triangle(const Triangles& faces, Eigen::Index face) const {
     MovingTriangle result;
-    for (int k = 0; k < 3; ++k) {
-      const std::int32_t node = faces(face, k);
-      const auto corner = static_cast<std::size_t>(k);
-      result.corners[corner] = values.row(node).head<3>();
+    result.corners = corners(values, faces, face);
+    for (int k = 0; k < 3; ++k)
       for (int direction = 0; direction < 2; ++direction)
-        result.velocities[corner].col(direction) = derivatives.row(node).segment<3>(direction * values.cols());
-    }
+        result.velocities[static_cast<std::size_t>(k)].col(direction) =
+            derivatives.row(faces(face, k)).segment<3>(direction * values.cols());
     return result;
   }
 
-  NodeMesh::Values values, derivatives;
+  const PointValues& values;
+  std::vector<TangentFrame> frames;
+  PointValues derivatives;
 };
 
 /// The quadratic model of one step.
@@ -66,38 +97,49 @@ class ElasticSystem {
         right_(Eigen::VectorXd::Zero(2 * mesh.count())),
         masses_(Eigen::VectorXd::Zero(mesh.count())) {}
 
-  void add_strain(const NodeValues& source, const NodeValues& target) {
+  /// Of the map from the resting shape, whose values at the nodes are given, to the other.
+  void add_strain(const PointValues& resting, const MovingSide& moving, int threads) {
+    struct Term {
+      double area = 0, energy = 0;
+      Eigen::Matrix<double, 6, 1> gradient;
+      Eigen::Matrix<double, 6, 6> curvature;
+    };
     const Eigen::Vector3d weights(parameters_.area, 1, 1);
-    double* entries = matrix_.valuePtr();
+    std::vector<Term> terms(static_cast<std::size_t>(mesh_.faces().rows()));
+    for_runs(mesh_.faces().rows(), threads, [&](Eigen::Index first, Eigen::Index last) {
+      for (Eigen::Index f = first; f < last; ++f) {
+        const auto face = static_cast<std::size_t>(f);
+        const Strain s = strain(FlatTriangle(corners(resting, mesh_.faces(), f)), moving.triangle(mesh_.faces(), f));
+        if (!(s.area > 0)) continue;
+        const double resistance = 1 / (1 + s.values.squaredNorm() / (parameters_.yield * parameters_.yield));
+        const Eigen::Matrix<double, 6, 3> weighted = resistance * s.area * s.derivatives.transpose() * weights.asDiagonal();
+        terms[face] = {s.area, s.area * weights.dot(s.values.cwiseAbs2()), weighted * s.values, weighted * s.derivatives};
+      }
+    });
     for (Eigen::Index f = 0; f < mesh_.faces().rows(); ++f) {
-      const Strain s = strain(source.triangle(mesh_.faces(), f), target.triangle(mesh_.faces(), f));
-      if (!(s.area > 0)) continue;
-      const Eigen::Matrix<double, 6, 3> weighted = s.area * s.derivatives.transpose() * weights.asDiagonal();
-      const Eigen::Matrix<double, 6, 1> gradient = weighted * s.values;
-      const Eigen::Matrix<double, 6, 6> curvature = weighted * s.derivatives;
-      energy_.strain += s.area * weights.dot(s.values.cwiseAbs2());
-      area_ += s.area;
+      const Term& term = terms[static_cast<std::size_t>(f)];
+      if (!(term.area > 0)) continue;
+      energy_.strain += term.energy;
+      area_ += term.area;
       for (int k = 0; k < 3; ++k) {
         const std::int32_t node = mesh_.faces()(f, k);
-        right_.segment<2>(2 * node) -= gradient.segment<2>(2 * k);
-        masses_[node] += s.area / 3;
+        right_.segment<2>(2 * node) -= term.gradient.segment<2>(2 * k);
+        masses_[node] += term.area / 3;
       }
-      add_lower_half(mesh_.face_slots(f), curvature, entries);
+      add_lower_half(mesh_.face_slots(f), term.curvature);
     }
   }
 
   /// After the strain, which says how much surface is round each node.
-  void add_signals(const NodeValues& source, const NodeValues& target, const std::vector<double>& weights) {
+  void add_signals(const PointValues& resting, const MovingSide& moving, const std::vector<double>& weights) {
     double* entries = matrix_.valuePtr();
     for (Eigen::Index i = 0; i < mesh_.count(); ++i) {
-      const double inertia = kInertia * mesh_.area(i);
+      const double inertia = kInertia * mesh_.areas()[i];
       double first = inertia, mixed = 0, second = inertia;
       for (std::size_t k = 0; k < weights.size(); ++k) {
         const auto channel = static_cast<Eigen::Index>(3 + k);
-        const double weight = parameters_.signals * weights[k] * masses_[i],
-                     difference = source.values(i, channel) - target.values(i, channel);
-        const double a = -0.5 * (source.derivative(i, channel, 0) + target.derivative(i, channel, 0));
-        const double b = -0.5 * (source.derivative(i, channel, 1) + target.derivative(i, channel, 1));
+        const double weight = parameters_.signals * weights[k] * masses_[i], difference = moving.values(i, channel) - resting(i, channel);
+        const double a = moving.derivative(i, channel, 0), b = moving.derivative(i, channel, 1);
         first += weight * a * a;
         mixed += weight * a * b;
         second += weight * b * b;
@@ -112,12 +154,20 @@ class ElasticSystem {
     }
   }
 
-  /// Points of the two sides, (H, 3), that belong together: at both the step is to be their distance.
-  void add_pairs(const Points& source, const Points& target) {
-    for (Eigen::Index i = 0; i < source.rows(); ++i) {
-      const Eigen::Vector3d difference = source.row(i) - target.row(i);
-      add_wish(source.row(i), -difference);
-      add_wish(target.row(i), -difference);
+  /// A step that the nodes at `places` round a point are to make: many of them, for one alone would turn triangles over.
+  void add_wish(const Points& places, const Eigen::Vector3d& point, const Eigen::Vector3d& wanted,
+                const std::vector<TangentFrame>& frames) {
+    const Eigen::VectorXd near = (1 - (places * point).array()).cwiseMax(0);  // half of the square of the distance
+    const Eigen::VectorXd shares = (1 - 2 * near.array() / (kPairReach * kPairReach)).cwiseMax(0).square();
+    const double sum = shares.sum();
+    if (!(sum > 0)) return;
+    for (Eigen::Index i = 0; i < shares.size(); ++i) {
+      if (shares[i] == 0) continue;
+      const double weight = kPairWeight * shares[i] / sum;
+      right_.segment<2>(2 * i) += weight * frames[static_cast<std::size_t>(i)].transpose() * wanted;
+      const NodeMesh::NodeSlots& slots = mesh_.node_slots(i);
+      matrix_.valuePtr()[slots[0]] += weight;
+      matrix_.valuePtr()[slots[2]] += weight;
     }
   }
 
@@ -130,17 +180,8 @@ class ElasticSystem {
   }
 
  private:
-  /// A step that one point is to make.
-  void add_wish(const Eigen::Vector3d& point, const Eigen::Vector3d& wanted) {
-    const Location at = mesh_.location().locate(point);
-    Eigen::Matrix<double, 3, 6> step;
-    for (int k = 0; k < 3; ++k) step.middleCols<2>(2 * k) = at.bary[k] * mesh_.tangents(mesh_.faces()(at.face, k));
-    const Eigen::Matrix<double, 6, 1> right = kPairWeight * step.transpose() * wanted;
-    for (int k = 0; k < 3; ++k) right_.segment<2>(2 * mesh_.faces()(at.face, k)) += right.segment<2>(2 * k);
-    add_lower_half(mesh_.face_slots(at.face), kPairWeight * step.transpose() * step, matrix_.valuePtr());
-  }
-
-  static void add_lower_half(const NodeMesh::FaceSlots& slots, const Eigen::Matrix<double, 6, 6>& values, double* entries) {
+  void add_lower_half(const NodeMesh::FaceSlots& slots, const Eigen::Matrix<double, 6, 6>& values) {
+    double* entries = matrix_.valuePtr();
     std::size_t next = 0;
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j <= i; ++j) entries[slots[next++]] += values(i, j);
@@ -155,6 +196,49 @@ class ElasticSystem {
   double area_ = 0;
 };
 
+/// Draws the moving points of pairs that belong together towards the images of the resting ones.
+void add_pairs(ElasticSystem& system, const Triangles& faces, const Points& resting_places, const Points& resting_points,
+               const Points& moving_places, const Points& moving_points, const std::vector<TangentFrame>& frames) {
+  if (resting_points.rows() == 0) return;
+  const std::vector<Location> at = locate_all(resting_points, PointLocation(resting_places, faces));
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    Eigen::Vector3d image = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) image += at[i].bary[k] * moving_places.row(faces(at[i].face, k)).transpose();
+    const auto pair = static_cast<Eigen::Index>(i);
+    system.add_wish(resting_places, resting_points.row(pair), moving_points.row(pair).transpose() - image.normalized(), frames);
+  }
+}
+
+/// Places of nodes after the step u, in which none moves farther than allowed. Steps are shortened where triangles would be turned over.
+Points stepped(const Points& places, const Eigen::VectorXd& u, const std::vector<TangentFrame>& frames, double longest_move,
+               const NodeMesh& mesh) {
+  constexpr int kHalvings = 6;
+  const Triangles& faces = mesh.faces();
+  std::vector<Eigen::Vector3d> moves;
+  for (Eigen::Index i = 0; i < mesh.count(); ++i) {
+    const double length = u.segment<2>(2 * i).norm();
+    moves.push_back(frames[static_cast<std::size_t>(i)] * u.segment<2>(2 * i) * (length > longest_move ? longest_move / length : 1));
+  }
+  Points result(places.rows(), 3);
+  std::vector<std::int32_t> flipped;
+  for (int halving = 0; halving <= kHalvings; ++halving) {
+    for (Eigen::Index i = 0; i < places.rows(); ++i)
+      result.row(i) = (places.row(i).transpose() + moves[static_cast<std::size_t>(i)]).normalized();
+    flipped = flipped_faces(result, faces);
+    if (flipped.empty()) return result;
+    std::vector<char> shortened(moves.size(), 0);
+    for (const std::int32_t f : flipped)
+      for (int k = 0; k < 3; ++k) {
+        const auto node = static_cast<std::size_t>(faces(f, k));
+        if (!shortened[node]) moves[node] /= 2;
+        shortened[node] = 1;
+      }
+  }
+  // Where shorter steps did not help, the triangles are mended; a step that leaves more turned over than there were is not taken.
+  if (mesh.repair().repair(result) || flipped_faces(result, faces).size() <= flipped_faces(places, faces).size()) return result;
+  return places;
+}
+
 double longest(const Eigen::VectorXd& u) {
   double square = 0;
   for (Eigen::Index i = 0; i < u.size(); i += 2) square = std::max(square, u.segment<2>(i).squaredNorm());
@@ -163,11 +247,17 @@ double longest(const Eigen::VectorXd& u) {
 
 }  // namespace
 
-ElasticEnergy flow_elastically(FlowSide& source, const ElasticChannels& of_source, FlowSide& target, const ElasticChannels& of_target,
-                               const HintDirections& hints, const NodeMesh& nodes, const ElasticParameters& parameters,
-                               const Progress& progress) {
-  source.follow(nodes.grid_resolution());
-  target.follow(nodes.grid_resolution());
+ElasticEnergy flow_elastically(NodeMap& map, const ElasticChannels& source, const ElasticChannels& target, const HintDirections& hints,
+                               const ElasticParameters& parameters, const Progress& progress, int threads) {
+  struct Side {
+    const ElasticChannels& channels;
+    const Points& hints;
+    Points places;
+    PointValues values;
+  };
+  const NodeMesh& mesh = map.mesh();
+  Side sides[2] = {{target, hints.target, map.target(), sample(target, map.target(), threads)},
+                   {source, hints.source, map.source(), sample(source, map.source(), threads)}};
   // Preconditioned by the diagonal: some 60 cheap iterations take less time than an incomplete factor or a factorisation.
   Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower> solver;
   solver.setTolerance(kTolerance);
@@ -175,23 +265,23 @@ ElasticEnergy flow_elastically(FlowSide& source, const ElasticChannels& of_sourc
   ElasticEnergy energy;
   for (int iteration = 0; iteration < parameters.iterations; ++iteration) {
     progress.check();
-    const NodeValues s(of_source, source.origins(nodes.nodes()), nodes), t(of_target, target.origins(nodes.nodes()), nodes);
-    ElasticSystem system(nodes, parameters);
-    system.add_strain(s, t);
-    system.add_signals(s, t, of_source.weights);
-    system.add_pairs(source.warp().forward(hints.source), target.warp().forward(hints.target));
+    Side &moving = sides[iteration % 2], &resting = sides[(iteration + 1) % 2];
+    const MovingSide t(moving.values, moving.places, mesh, threads);
+    ElasticSystem system(mesh, parameters);
+    system.add_strain(resting.values, t, threads);
+    system.add_signals(resting.values, t, source.weights);
+    add_pairs(system, mesh.faces(), resting.places, resting.hints, moving.places, moving.hints, t.frames);
     energy = system.energy();
     solver.compute(system.matrix());
     if (solver.info() != Eigen::Success) break;  // a surface without any extent at the nodes
-    Eigen::VectorXd u = solver.solve(system.right());
+    const Eigen::VectorXd u = solver.solve(system.right());
     const double move = longest(u);
     if (!std::isfinite(move)) break;
-    if (move > parameters.longest_move) u *= parameters.longest_move / move;
-    const auto field = std::make_shared<const TangentField>(nodes.field(u));
-    source.move(field, 0.5);
-    target.move(field, -0.5);
+    moving.places = stepped(moving.places, u, t.frames, parameters.longest_move, mesh);
     if (move < parameters.settled) break;
+    moving.values = sample(moving.channels, moving.places, threads);
   }
+  map.move_to(std::move(sides[1].places), std::move(sides[0].places));
   return energy;
 }
 

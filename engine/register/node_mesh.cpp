@@ -4,61 +4,48 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/sphere/grid.h"
 #include "engine/sphere/icosphere.h"
 
 namespace spherematch {
-namespace {
 
-Eigen::Matrix<double, 3, 2> tangents_at(const Eigen::Vector3d& p) {
+TangentFrame tangent_frame(const Eigen::Vector3d& p) {
   const Eigen::Vector3d across = std::abs(p.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
   const Eigen::Vector3d first = across.cross(p).normalized();
-  Eigen::Matrix<double, 3, 2> result;
+  TangentFrame result;
   result << first, p.cross(first);
   return result;
 }
 
-/// Towards growing colatitude and growing longitude.
-Eigen::Matrix<double, 3, 2> grid_directions(const Eigen::Vector3d& p) {
-  const double radius = std::hypot(p.x(), p.y()), c = p.x() / radius, s = p.y() / radius;
-  Eigen::Matrix<double, 3, 2> result;
-  result << p.z() * c, -s, p.z() * s, c, -radius, 0;
-  return result;
-}
-
-}  // namespace
-
-NodeMesh::NodeMesh(int subdivisions, int grid_resolution)
-    : mesh_(icosphere(subdivisions)),
-      location_(mesh_.vertices, mesh_.faces),
-      grid_resolution_(grid_resolution),
-      areas_(Eigen::VectorXd::Zero(mesh_.vertex_count())) {
-  for (Eigen::Index i = 0; i < count(); ++i) tangents_.push_back(tangents_at(nodes().row(i)));
+NodeMesh::NodeMesh(int subdivisions) : mesh_(icosphere(subdivisions)), repair_(mesh_), areas_(Eigen::VectorXd::Zero(mesh_.vertex_count())) {
   for (Eigen::Index f = 0; f < faces().rows(); ++f) {
     Eigen::Vector3d p[3];
     for (int k = 0; k < 3; ++k) p[k] = nodes().row(faces()(f, k));
-    const Eigen::Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
-    Eigen::Matrix3d gradient;
-    for (int k = 0; k < 3; ++k) gradient.col(k) = normal.normalized().cross(p[(k + 2) % 3] - p[(k + 1) % 3]) / 2;
-    gradients_.push_back(gradient);
-    for (int k = 0; k < 3; ++k) areas_[faces()(f, k)] += normal.norm() / 6;
+    for (int k = 0; k < 3; ++k) areas_[faces()(f, k)] += (p[1] - p[0]).cross(p[2] - p[0]).norm() / 6;
   }
-
-  const Points centers = cell_centers(grid_resolution);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index i = 0; i < centers.rows(); ++i) {
-    const Location at = location_.locate(centers.row(i));
-    const Eigen::Matrix<double, 3, 2> directions = grid_directions(centers.row(i));
-    for (int k = 0; k < 3; ++k) {
-      const std::int32_t node = faces()(at.face, k);
-      const Eigen::Matrix2d share = at.bary[k] * directions.transpose() * tangents_[static_cast<std::size_t>(node)];
-      for (int a = 0; a < 2; ++a)
-        for (int b = 0; b < 2; ++b) entries.emplace_back(static_cast<int>(a * centers.rows() + i), 2 * node + b, share(a, b));
-    }
-  }
-  grid_field_.resize(2 * centers.rows(), 2 * count());
-  grid_field_.setFromTriplets(entries.begin(), entries.end());
+  find_parents(subdivisions);
+  find_faces();
   make_pattern();
+}
+
+void NodeMesh::find_parents(int subdivisions) {
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(count()); ++i) parents_.push_back({i, i});
+  if (subdivisions == 0) return;
+  // Of every four faces the first three each have one corner of the face that was split.
+  for (Eigen::Index f = 0; f < faces().rows(); f += 4) {
+    const std::int32_t corners[3] = {faces()(f, 0), faces()(f + 1, 1), faces()(f + 2, 2)};
+    const std::int32_t middles[3] = {faces()(f, 1), faces()(f + 1, 2), faces()(f + 2, 0)};
+    for (int k = 0; k < 3; ++k) parents_[static_cast<std::size_t>(middles[k])] = {corners[k], corners[(k + 1) % 3]};
+  }
+}
+
+void NodeMesh::find_faces() {
+  start_.assign(static_cast<std::size_t>(count()) + 1, 0);
+  for (Eigen::Index i = 0; i < faces().size(); ++i) ++start_[static_cast<std::size_t>(faces().data()[i]) + 1];
+  for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
+  face_.resize(static_cast<std::size_t>(faces().size()));
+  std::vector<std::int32_t> next(start_.begin(), start_.end() - 1);
+  for (std::int32_t f = 0; f < static_cast<std::int32_t>(faces().rows()); ++f)
+    for (int k = 0; k < 3; ++k) face_[static_cast<std::size_t>(next[static_cast<std::size_t>(faces()(f, k))]++)] = f;
 }
 
 void NodeMesh::make_pattern() {
@@ -88,32 +75,30 @@ void NodeMesh::make_pattern() {
     node_slots_.push_back({slot(2 * i, 2 * i), slot(2 * i + 1, 2 * i), slot(2 * i + 1, 2 * i + 1)});
 }
 
-NodeMesh::Values NodeMesh::derivatives(const Values& values) const {
+void NodeMesh::differentiate(const PointValues& values, const Points& places, const std::vector<TangentFrame>& frames, Eigen::Index first,
+                             Eigen::Index last, PointValues& result) const {
   const Eigen::Index c = values.cols();
-  Values sums = Values::Zero(count(), 3 * c), result(count(), 2 * c);
-  Eigen::RowVectorXd gradient(3 * c);
-  for (Eigen::Index f = 0; f < faces().rows(); ++f) {
-    gradient.setZero();
-    for (int k = 0; k < 3; ++k)
-      for (int axis = 0; axis < 3; ++axis)
-        gradient.segment(axis * c, c) += gradients_[static_cast<std::size_t>(f)](axis, k) * values.row(faces()(f, k));
-    for (int k = 0; k < 3; ++k) sums.row(faces()(f, k)) += gradient;
-  }
-  for (Eigen::Index i = 0; i < count(); ++i) {
-    const Eigen::Matrix<double, 3, 2>& tangents = tangents_[static_cast<std::size_t>(i)];
-    for (int direction = 0; direction < 2; ++direction) {
-      auto derivative = result.row(i).segment(direction * c, c);
-      derivative.setZero();
-      for (int axis = 0; axis < 3; ++axis) derivative += tangents(axis, direction) / (3 * areas_[i]) * sums.row(i).segment(axis * c, c);
+  for (Eigen::Index i = first; i < last; ++i) {
+    const auto node = static_cast<std::size_t>(i);
+    auto row = result.row(i);
+    row.setZero();
+    double area = 0;
+    for (std::int32_t j = start_[node]; j < start_[node + 1]; ++j) {
+      const auto face = faces().row(face_[static_cast<std::size_t>(j)]);
+      const Eigen::Vector3d p[3] = {places.row(face[0]), places.row(face[1]), places.row(face[2])};
+      const Eigen::Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
+      const double size = normal.norm();
+      if (!(size > 0)) continue;
+      area += size;
+      for (int k = 0; k < 3; ++k) {
+        // What a value at corner k adds to the gradient, times twice the area.
+        const Eigen::Vector2d share = frames[node].transpose() * (normal / size).cross(p[(k + 2) % 3] - p[(k + 1) % 3]);
+        row.head(c) += share[0] * values.row(face[k]);
+        row.tail(c) += share[1] * values.row(face[k]);
+      }
     }
+    if (area > 0) row /= area;
   }
-  return result;
-}
-
-TangentGrid NodeMesh::field(const Eigen::VectorXd& u) const {
-  const Eigen::Index n = grid_resolution_;
-  const Eigen::VectorXd components = grid_field_ * u;
-  return {Eigen::Map<const Grid>(components.data(), n, n), Eigen::Map<const Grid>(components.data() + n * n, n, n)};
 }
 
 }  // namespace spherematch

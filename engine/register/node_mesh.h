@@ -1,4 +1,4 @@
-// Nodes on the sphere where two shapes are registered, joined to triangles: what the elastic flow computes on.
+// Nodes joined to triangles, by which a map between two spheres is represented and the elastic flow computes.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,37 +8,36 @@
 #include <vector>
 
 #include "engine/data/tri_mesh.h"
-#include "engine/register/point_location.h"
-#include "engine/sphere/harmonics.h"
+#include "engine/sphere/flip_repair.h"
 
 namespace spherematch {
+
+/// (P, C): C values at each of P points.
+using PointValues = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Two orthonormal tangent vectors of the sphere at a point, the columns: what components of a vector there refer to.
+using TangentFrame = Eigen::Matrix<double, 3, 2>;
+[[nodiscard]] TangentFrame tangent_frame(const Eigen::Vector3d& p);
 
 /// An icosphere with what is the same for all pairs. Immutable, thread-safe.
 class NodeMesh {
  public:
-  /// (nodes, C) values of C functions.
-  using Values = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-  /// `grid_resolution`: of the grids that fields are made on.
-  NodeMesh(int subdivisions, int grid_resolution);
-  NodeMesh(const NodeMesh&) = delete;
-  NodeMesh& operator=(const NodeMesh&) = delete;
+  explicit NodeMesh(int subdivisions);
 
   [[nodiscard]] Eigen::Index count() const { return mesh_.vertices.rows(); }
   [[nodiscard]] const Points& nodes() const { return mesh_.vertices; }
   [[nodiscard]] const Triangles& faces() const { return mesh_.faces; }
-  [[nodiscard]] const PointLocation& location() const { return location_; }
-  /// Two orthonormal tangent vectors, the columns: what components of vectors at a node refer to.
-  [[nodiscard]] const Eigen::Matrix<double, 3, 2>& tangents(Eigen::Index node) const { return tangents_[static_cast<std::size_t>(node)]; }
-  [[nodiscard]] int grid_resolution() const { return grid_resolution_; }
-  /// A third of the area of the triangles round a node.
-  [[nodiscard]] double area(Eigen::Index node) const { return areas_[node]; }
+  /// A third of the area of the triangles round each node.
+  [[nodiscard]] const Eigen::VectorXd& areas() const { return areas_; }
+  /// Keeps these triangles from being turned over, wherever on a sphere the nodes are.
+  [[nodiscard]] const FlipRepair& repair() const { return repair_; }
+  /// The two nodes of the next coarser icosphere that a node is in the middle of; twice itself where it is one of these.
+  [[nodiscard]] const std::array<std::int32_t, 2>& parents(Eigen::Index node) const { return parents_[static_cast<std::size_t>(node)]; }
 
-  /// Derivatives along both tangent directions of each node, (nodes, 2 C): C along the first, then C along the second.
-  [[nodiscard]] Values derivatives(const Values& values) const;
-
-  /// The field with tangent vector u[2 i], u[2 i + 1] at node i, linear in between.
-  [[nodiscard]] TangentGrid field(const Eigen::VectorXd& u) const;
+  /// Derivatives at nodes `first` to `last` - 1, at `places` on a sphere, of functions with `values` at all nodes: means over the triangles
+  /// round each. Writes rows of `result`, (nodes, 2 C): C derivatives along the first vector of the node's frame, then C along the second.
+  void differentiate(const PointValues& values, const Points& places, const std::vector<TangentFrame>& frames, Eigen::Index first,
+                     Eigen::Index last, PointValues& result) const;
 
   /// A symmetric matrix over the components of tangent vectors, with an entry for each two nodes of a triangle; the lower half.
   [[nodiscard]] const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
@@ -49,15 +48,15 @@ class NodeMesh {
   [[nodiscard]] const NodeSlots& node_slots(Eigen::Index node) const { return node_slots_[static_cast<std::size_t>(node)]; }
 
  private:
+  void find_parents(int subdivisions);
+  void find_faces();
   void make_pattern();
 
   TriMesh mesh_;
-  PointLocation location_;
-  int grid_resolution_;
-  std::vector<Eigen::Matrix<double, 3, 2>> tangents_;  ///< of each node
-  std::vector<Eigen::Matrix3d> gradients_;             ///< of each face: column k times its area is what a value at corner k adds
+  FlipRepair repair_;
   Eigen::VectorXd areas_;
-  Eigen::SparseMatrix<double> grid_field_;  ///< (2 N^2, 2 nodes): components on the grid of fields given at the nodes
+  std::vector<std::array<std::int32_t, 2>> parents_;
+  std::vector<std::int32_t> start_, face_;  ///< the faces round each node, compressed rows
   Eigen::SparseMatrix<double> pattern_;
   std::vector<FaceSlots> face_slots_;
   std::vector<NodeSlots> node_slots_;

@@ -76,15 +76,15 @@ struct Attempt {
 /// A registration and the attempt that it is of.
 struct Choice {
   const Attempt* attempt;
-  const Registration* registration;
+  Registration* registration;
 };
 
 /// The best finished registration of each rotation, by rising score.
-std::vector<Choice> rank(const std::vector<Attempt>& attempts) {
+std::vector<Choice> rank(std::vector<Attempt>& attempts) {
   std::vector<Choice> choices;
-  for (const Attempt& attempt : attempts) {
+  for (Attempt& attempt : attempts) {
     for (const std::size_t i : attempt.finished) {
-      const Registration& registration = attempt.registrations[i];
+      Registration& registration = attempt.registrations[i];
       const bool known = std::any_of(choices.begin(), choices.end(), [&](const Choice& better) {
         return better.attempt == &attempt && better.registration->candidate == registration.candidate;
       });
@@ -113,11 +113,12 @@ bool ambiguous(const std::vector<Choice>& ranked) {
 }
 
 /// A rotation with the score of its chosen registration, else of its best.
-CandidateSummary summarize(const Attempt& attempt, std::size_t candidate, const Choice& chosen) {
+CandidateSummary summarize(const Attempt& attempt, std::size_t candidate, const Choice& chosen, bool exchanged) {
   CandidateSummary summary;
-  const Eigen::Matrix3d rotation = attempt.candidates[candidate].rotation;
-  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(summary.rotation.data()) =
-      attempt.source.shape.mirrored() ? rotation * mirror_matrix() : rotation;
+  Eigen::Matrix3d rotation = attempt.candidates[candidate].rotation;
+  if (attempt.source.shape.mirrored()) rotation = rotation * mirror_matrix();
+  if (exchanged) rotation.transposeInPlace();
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(summary.rotation.data()) = rotation;
   summary.correlation = attempt.candidates[candidate].correlation;
   summary.chosen = chosen.attempt == &attempt && chosen.registration->candidate == candidate;
   summary.score = std::numeric_limits<double>::infinity();
@@ -128,10 +129,10 @@ CandidateSummary summarize(const Attempt& attempt, std::size_t candidate, const 
 }
 
 /// The candidates of all attempts, by falling correlation.
-std::vector<CandidateSummary> summarize_all(const std::vector<Attempt>& attempts, const Choice& chosen) {
+std::vector<CandidateSummary> summarize_all(const std::vector<Attempt>& attempts, const Choice& chosen, bool exchanged) {
   std::vector<CandidateSummary> summaries;
   for (const Attempt& attempt : attempts)
-    for (std::size_t i = 0; i < attempt.candidates.size(); ++i) summaries.push_back(summarize(attempt, i, chosen));
+    for (std::size_t i = 0; i < attempt.candidates.size(); ++i) summaries.push_back(summarize(attempt, i, chosen, exchanged));
   std::stable_sort(summaries.begin(), summaries.end(), [](const auto& a, const auto& b) { return a.correlation > b.correlation; });
   return summaries;
 }
@@ -148,13 +149,22 @@ struct HalfMap {
   std::size_t flipped = 0;          ///< faces that the map turns over
 };
 
-/// One direction of a registration: carries the vertices of `from` to the registered sphere, and back from there to that of `to`.
-HalfMap map_vertices(const MatchShape& from, const Warp& there, const MatchShape& to, const Warp& back, int threads) {
+/// One direction of a registration, from the `images` of the vertices of one shape on the sphere of the other. A face may be turned over
+/// though the map is a bijection, being straight where that is bent: then its corners are moved a little.
+HalfMap map_vertices(const MatchShape& from, Points images, const MatchShape& to, int threads) {
   HalfMap result;
-  Points images = back.backward(there.forward(from.sphere(), threads), threads);
   if (!from.repair().repair(images)) result.flipped = flipped_faces(images, from.faces()).size();
   result.locations = locate_all(images, to.location(), threads);
+  if (to.mirrored()) std::transform(result.locations.begin(), result.locations.end(), result.locations.begin(), mirrored_location);
   return result;
+}
+
+/// An order of shapes. A pair is registered in this order, so that the maps from source to target and from target to source are of the same
+/// registration, whichever is asked for.
+bool comes_before(const MatchShape& a, const MatchShape& b) {
+  const Points &p = a.sphere(), &q = b.sphere();
+  if (p.size() != q.size()) return p.size() < q.size();
+  return std::lexicographical_compare(p.data(), p.data() + p.size(), q.data(), q.data() + q.size());
 }
 
 }  // namespace
@@ -168,21 +178,25 @@ MatchResult register_pair(const MatchShape& source, const MatchShape& target, co
   MatchResult result;
 
   report("rotation", 0);
-  const std::vector<PlacedHint> hints = place_hints(source.surface(), target.surface(), parameters.hints);
-  const PairSide target_side(target, parameters);
+  std::vector<PlacedHint> hints = place_hints(source.surface(), target.surface(), parameters.hints);
+  const bool exchanged = comes_before(target, source);
+  const MatchShape &first = exchanged ? target : source, &second = exchanged ? source : target;
+  if (exchanged)
+    for (PlacedHint& hint : hints) std::swap(hint.source, hint.target);
+  const PairSide second_side(second, parameters);
   std::unique_ptr<const MatchShape> mirror_image;
   std::vector<Attempt> attempts;
   const auto attempt_with = [&](const MatchShape& shape) {
-    attempts.push_back({PairSide(shape, parameters), directions(hints, shape.working_sphere(), target.working_sphere())});
+    attempts.push_back({PairSide(shape, parameters), directions(hints, shape.working_sphere(), second.working_sphere())});
   };
-  if (parameters.orientation != Orientation::reverse) attempt_with(source);
-  if (parameters.orientation != Orientation::preserve) attempt_with(*(mirror_image = source.mirror_image()));
-  for (Attempt& attempt : attempts) attempt.candidates = find_candidates(attempt.source.shape, target, attempt.hints, parameters);
+  if (parameters.orientation != Orientation::reverse) attempt_with(first);
+  if (parameters.orientation != Orientation::preserve) attempt_with(*(mirror_image = first.mirror_image()));
+  for (Attempt& attempt : attempts) attempt.candidates = find_candidates(attempt.source.shape, second, attempt.hints, parameters);
   result.seconds.emplace_back("rotation", watch.lap());
 
   report("flow", 0.1);
   for (Attempt& attempt : attempts) {
-    const Pair pair{attempt.source, target_side, attempt.hints, parameters};
+    const Pair pair{attempt.source, second_side, attempt.hints, parameters};
     std::vector<Eigen::Matrix3d> rotations;
     for (const RotationCandidate& candidate : attempt.candidates) rotations.push_back(candidate.rotation);
     attempt.registrations = start_registrations(pair, rotations);
@@ -190,22 +204,32 @@ MatchResult register_pair(const MatchShape& source, const MatchShape& target, co
   }
   result.seconds.emplace_back("flow", watch.lap());
 
-  report("correspondence", 0.9);
+  report("refinement", 0.5);
   const std::vector<Choice> ranked = rank(attempts);
   const Choice chosen = choose(ranked, parameters.candidate);
-  const Registration& registration = *chosen.registration;
-  const MatchShape& from = chosen.attempt->source.shape;
-  result.reversed = from.mirrored();
-  result.candidates = summarize_all(attempts, chosen);
-  const Warp &there = registration.source->warp(), &back = registration.target->warp();
-  const HalfMap forward = map_vertices(from, there, target, back, threads);
-  result.map = compose(source.surface(), target.surface(), forward.locations);
-  result.quality = {{"flipped_source", static_cast<double>(forward.flipped)}};
+  Registration& registration = *chosen.registration;
+  refine({chosen.attempt->source, second_side, chosen.attempt->hints, parameters}, registration, progress, threads);
+  result.seconds.emplace_back("refinement", watch.lap());
+
+  report("correspondence", 0.9);
+  const MatchShape& first_matched = chosen.attempt->source.shape;
+  const MatchShape &from = exchanged ? second : first_matched, &to = exchanged ? first_matched : second;
+  result.reversed = first_matched.mirrored();
+  result.candidates = summarize_all(attempts, chosen, exchanged);
+  const NodeMap& map = *registration.map;
+  const auto along = [&](const Points& points, bool forward) {
+    return forward ? map.forward(points, threads) : map.backward(points, threads);
+  };
+  const HalfMap there = map_vertices(from, along(from.sphere(), !exchanged), to, threads);
+  result.map = compose(source.surface(), target.surface(), there.locations);
+  result.quality = {{"bijective", map.bijective() ? 1 : 0}, {"flipped_source", static_cast<double>(there.flipped)}};
   if (parameters.both) {
-    HalfMap reverse = map_vertices(target, back, from, there, threads);
-    if (result.reversed) std::transform(reverse.locations.begin(), reverse.locations.end(), reverse.locations.begin(), mirrored_location);
-    result.reverse = compose(target.surface(), source.surface(), reverse.locations);
-    result.quality.emplace_back("flipped_target", static_cast<double>(reverse.flipped));
+    const HalfMap back = map_vertices(to, along(to.sphere(), exchanged), from, threads);
+    result.reverse = compose(target.surface(), source.surface(), back.locations);
+    const RoundTrip trip = round_trip(source.surface(), target.surface(), there.locations, back.locations);
+    result.quality.emplace_back("flipped_target", static_cast<double>(back.flipped));
+    result.quality.emplace_back("inverse_mean", trip.mean);
+    result.quality.emplace_back("inverse_largest", trip.largest);
   }
   if (!parameters.elastic_iterations.empty()) result.quality.emplace_back("strain", std::sqrt(registration.elastic.strain));
   result.quality.emplace_back("score", registration.score);

@@ -11,34 +11,16 @@ namespace {
 constexpr double kLeastArea = 1e-12;    // of surfaces of area one
 constexpr double kLeastStretch = 1e-3;  // keeps logarithms of needles finite
 
-/// A triangle in its own plane.
-struct Flat {
-  explicit Flat(const MovingTriangle& triangle) {
-    const Eigen::Vector3d ab = triangle.corners[1] - triangle.corners[0], ac = triangle.corners[2] - triangle.corners[0];
-    const Eigen::Vector3d normal = ab.cross(ac);
-    const double size = normal.norm();
-    area = size / 2;
-    if (area < kLeastArea) return;
-    axes.row(0) = ab.normalized();
-    axes.row(1) = (normal / size).cross(ab.normalized());
-    edges << axes * ab, axes * ac;
-  }
-
-  /// Of the edges, when corner k moves with the velocity.
-  [[nodiscard]] Eigen::Matrix2d change(int k, const Eigen::Vector3d& velocity) const {
-    const Eigen::Vector2d v = axes * velocity;
-    Eigen::Matrix2d result = Eigen::Matrix2d::Zero();
-    if (k == 0)
-      result.colwise() = -v;
-    else
-      result.col(k - 1) = v;
-    return result;
-  }
-
-  double area = 0;
-  Eigen::Matrix<double, 2, 3> axes;
-  Eigen::Matrix2d edges;
-};
+/// How the edges change when corner k moves with the velocity.
+Eigen::Matrix2d change(const FlatTriangle& triangle, int k, const Eigen::Vector3d& velocity) {
+  const Eigen::Vector2d v = triangle.axes * velocity;
+  Eigen::Matrix2d result = Eigen::Matrix2d::Zero();
+  if (k == 0)
+    result.colwise() = -v;
+  else
+    result.col(k - 1) = v;
+  return result;
+}
 
 /// J = U diag(s, t) V', s >= t, for a J of positive determinant; U and V are rotations.
 struct Principal {
@@ -57,21 +39,30 @@ struct Principal {
 
 }  // namespace
 
-Strain strain(const MovingTriangle& source, const MovingTriangle& target) {
+FlatTriangle::FlatTriangle(const TriangleCorners& corners) {
+  const Eigen::Vector3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
+  const Eigen::Vector3d normal = ab.cross(ac);
+  const double size = normal.norm();
+  if (size / 2 < kLeastArea) return;
+  area = size / 2;
+  axes.row(0) = ab.normalized();
+  axes.row(1) = (normal / size).cross(ab.normalized());
+  edges << axes * ab, axes * ac;
+}
+
+Strain strain(const FlatTriangle& source, const MovingTriangle& target) {
   Strain result;
-  const Flat from(source), to(target);
-  if (from.area < kLeastArea || to.area < kLeastArea) return result;
-  result.area = (from.area + to.area) / 2;
-  const Eigen::Matrix2d inverse = from.edges.inverse(), J = to.edges * inverse;
-  const Principal principal(J);
+  const FlatTriangle to(target.corners);
+  if (!(source.area > 0 && to.area > 0)) return result;
+  result.area = (source.area + to.area) / 2;
+  const Eigen::Matrix2d inverse = source.edges.inverse();
+  const Principal principal(to.edges * inverse);
   const double a = std::log(principal.s), b = std::log(principal.t);
   result.values << a + b, a - b, 0;
   for (int k = 0; k < 3; ++k) {
-    const auto corner = static_cast<std::size_t>(k);
     for (int direction = 0; direction < 2; ++direction) {
-      const Eigen::Matrix2d in_source = from.change(k, -0.5 * source.velocities[corner].col(direction));
-      const Eigen::Matrix2d in_target = to.change(k, 0.5 * target.velocities[corner].col(direction));
-      const Eigen::Matrix2d K = principal.U.transpose() * (in_target - J * in_source) * inverse * principal.V;
+      const Eigen::Matrix2d moved = change(to, k, target.velocities[static_cast<std::size_t>(k)].col(direction));
+      const Eigen::Matrix2d K = principal.U.transpose() * moved * inverse * principal.V;
       const double da = K(0, 0) / principal.s, db = K(1, 1) / principal.t;
       result.derivatives.col(2 * k + direction) << da + db, da - db, 2 * (K(0, 1) + K(1, 0)) / (principal.s + principal.t);
     }

@@ -6,9 +6,20 @@
 
 namespace spherematch {
 
+using TriangleCorners = std::array<Eigen::Vector3d, 3>;
+
+/// A triangle in its own plane.
+struct FlatTriangle {
+  explicit FlatTriangle(const TriangleCorners& corners);
+
+  double area = 0;                   ///< zero for one without extent, whose other members are undefined
+  Eigen::Matrix<double, 2, 3> axes;  ///< of the plane, orthonormal
+  Eigen::Matrix2d edges;             ///< from the first corner to the others
+};
+
 /// A triangle on a surface, and how its corners move when their nodes on the sphere do: a column per tangent direction.
 struct MovingTriangle {
-  std::array<Eigen::Vector3d, 3> corners;
+  TriangleCorners corners;
   std::array<Eigen::Matrix<double, 3, 2>, 3> velocities;
 };
 
@@ -16,12 +27,11 @@ struct MovingTriangle {
 /// log t, the loss of shape; and the shear between the principal directions, zero as such. Least squares of these, weighted alike for the
 /// last two, are an elastic energy that treats stretching and compressing alike.
 struct Strain {
-  double area = 0;         ///< mean of both triangles; zero for a triangle without area, whose strain is undefined
-  Eigen::Vector3d values;  ///< (change of area, loss of shape, 0)
-  Eigen::Matrix<double, 3, 6>
-      derivatives;  ///< by the corners' moves, two columns each, where the source moves by -1/2 and the target by 1/2
+  double area = 0;                          ///< mean of both triangles; zero where either has none and strain is undefined
+  Eigen::Vector3d values;                   ///< (change of area, loss of shape, 0)
+  Eigen::Matrix<double, 3, 6> derivatives;  ///< by the moves of the target's corners, two columns each
 };
 
-[[nodiscard]] Strain strain(const MovingTriangle& source, const MovingTriangle& target);
+[[nodiscard]] Strain strain(const FlatTriangle& source, const MovingTriangle& target);
 
 }  // namespace spherematch

@@ -369,6 +369,7 @@ TEST(MatchParameters, NameTheInvalidField) {
   for (const double value : {-1.0, nan, infinity}) {
     expect_invalid(with([&](auto& p) { p.flow_detail = value; }), "flow_detail");
     expect_invalid(with([&](auto& p) { p.elastic_area = value; }), "elastic_area");
+    expect_invalid(with([&](auto& p) { p.elastic_yield = value; }), "elastic_yield");
     expect_invalid(with([&](auto& p) { p.elastic_signals = value; }), "elastic_signals");
     expect_invalid(with([&](auto& p) { p.elastic_longest_move = value; }), "elastic_longest_move");
     expect_invalid(with([&](auto& p) { p.elastic_settled = value; }), "elastic_settled");

@@ -84,6 +84,19 @@ TEST_P(BothWays, TheReverseMapIsTheInverseOfTheSameRegistration) {
     for (int k = 0; k < 3; ++k) there_and_back.row(i) += static_cast<double>(result.map.bary(i, k)) * back.row(result.map.corners(i, k));
   EXPECT_LT(mean_distance(there_and_back, a.vertices, a), 0.004);
   expect_same_map(match(source, target, parameters, {}, 1).reverse, result.reverse);
+  // Whichever direction is asked for, it is the same registration.
+  const MatchResult exchanged = match(target, source, parameters);
+  expect_same_map(exchanged.map, result.reverse);
+  expect_same_map(exchanged.reverse, result.map);
+  const auto named = [&](const char* name) {
+    for (const auto& [key, value] : result.quality)
+      if (key == name) return value;
+    ADD_FAILURE() << name;
+    return -1.0;
+  };
+  EXPECT_EQ(named("bijective"), 1);
+  EXPECT_NEAR(named("inverse_mean"), mean_distance(there_and_back, a.vertices, a), 1e-6);
+  EXPECT_GE(named("inverse_largest"), named("inverse_mean"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, BothWays, ::testing::Values(false, true),

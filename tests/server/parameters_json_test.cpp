@@ -30,6 +30,7 @@ TEST(ParametersJson, EveryFieldOfAMatchShows) {
   EXPECT_TRUE(changed(&MatchParameters::mesh_flow, true));
   EXPECT_TRUE(changed(&MatchParameters::elastic_iterations, std::vector<int>{1}));
   EXPECT_TRUE(changed(&MatchParameters::elastic_area, 0.5));
+  EXPECT_TRUE(changed(&MatchParameters::elastic_yield, 2.0));
   EXPECT_TRUE(changed(&MatchParameters::elastic_signals, 1.0));
   EXPECT_TRUE(changed(&MatchParameters::elastic_longest_move, 0.2));
   EXPECT_TRUE(changed(&MatchParameters::elastic_settled, 0.1));

@@ -34,6 +34,11 @@ ElasticChannels channels(const GridSamples& samples) { return {samples, {0, 1, 2
 
 Vector3d same(const Vector3d& p) { return p; }
 
+NodeMap unmoved(const GridSamples& s, const GridSamples& t, const NodeMesh& mesh) {
+  const std::vector<Eigen::Index> none;
+  return NodeMap(mesh, GridFlowSide(s, none, Matrix3d::Identity(), 64), GridFlowSide(t, none, Matrix3d::Identity(), 64));
+}
+
 struct Outcome {
   ElasticEnergy energy;
   Points source, target;  ///< of the prepared spheres, at the nodes
@@ -41,10 +46,9 @@ struct Outcome {
 
 Outcome flow(const GridSamples& s, const GridSamples& t, const NodeMesh& mesh, const ElasticParameters& parameters,
              const HintDirections& hints = {Points(0, 3), Points(0, 3)}, const Progress& progress = {}) {
-  const std::vector<Eigen::Index> none;
-  GridFlowSide source(s, none, Matrix3d::Identity(), 64), target(t, none, Matrix3d::Identity(), 64);
-  const ElasticEnergy energy = flow_elastically(source, channels(s), target, channels(t), hints, mesh, parameters, progress);
-  return {energy, source.origins(mesh.nodes()), target.origins(mesh.nodes())};
+  NodeMap map = unmoved(s, t, mesh);
+  const ElasticEnergy energy = flow_elastically(map, channels(s), channels(t), hints, parameters, progress, 2);
+  return {energy, map.source(), map.target()};
 }
 
 /// Mean distance between points that should be the same on the ellipsoid.
@@ -56,7 +60,7 @@ double distance(const Outcome& outcome, const Reparametrization& of_target) {
 }
 
 TEST(ElasticFlow, LeavesWhatFitsAlone) {
-  const NodeMesh mesh(3, 64);
+  const NodeMesh mesh(3);
   const GridSamples body = ellipsoid_through(same);
   const Outcome outcome = flow(body, body, mesh, {});
   EXPECT_LT(outcome.energy.strain, 1e-28);  // rounding
@@ -65,7 +69,7 @@ TEST(ElasticFlow, LeavesWhatFitsAlone) {
 }
 
 TEST(ElasticFlow, FindsARotationByShapeAlone) {
-  const NodeMesh mesh(4, 64);
+  const NodeMesh mesh(4);
   const Matrix3d rotation = Eigen::AngleAxisd(0.15, Vector3d(1, 2, -1).normalized()).toRotationMatrix();
   const Reparametrization turned = [&](const Vector3d& p) -> Vector3d { return rotation * p; };
   ElasticParameters parameters;
@@ -78,7 +82,7 @@ TEST(ElasticFlow, FindsARotationByShapeAlone) {
 
 TEST(ElasticFlow, ChangesAreasOnTheSphereWhereTheSurfacesDoNot) {
   // A Moebius map doubles areas on one side and halves them on the other, which no flow free of divergence undoes.
-  const NodeMesh mesh(4, 64);
+  const NodeMesh mesh(4);
   const Reparametrization boosted = [](const Vector3d& p) -> Vector3d {
     Points one = p.transpose();
     boost(one, Vector3d(0.1, -0.12, 0.06));
@@ -98,37 +102,56 @@ TEST(ElasticFlow, ChangesAreasOnTheSphereWhereTheSurfacesDoNot) {
 }
 
 TEST(ElasticFlow, MovesNoFartherThanAllowed) {
-  const NodeMesh mesh(3, 64);
+  const NodeMesh mesh(3);
   const Reparametrization turned = [](const Vector3d& p) -> Vector3d { return Eigen::AngleAxisd(0.4, Vector3d::UnitX()) * p; };
   ElasticParameters parameters;
   parameters.iterations = 1;
   parameters.longest_move = 0.02;
   const Outcome outcome = flow(ellipsoid_through(same), ellipsoid_through(turned), mesh, parameters);
-  const double move = (outcome.source - mesh.nodes()).rowwise().norm().maxCoeff();  // half of it is the source's
-  EXPECT_GT(move, 0.008);
-  EXPECT_LT(move, 0.0105);
+  const double move = (outcome.target - mesh.nodes()).rowwise().norm().maxCoeff();
+  EXPECT_GT(move, 0.016);
+  EXPECT_LT(move, 0.0201);
 }
 
-TEST(ElasticFlow, IsTheInverseWhenTheShapesAreExchanged) {
-  const NodeMesh mesh(3, 64);
+TEST(ElasticFlow, TurnsNoTriangleOver) {
+  // Signals that call for a fold: the target has the wave twice where the source has it once, and hardly resists.
+  const NodeMesh mesh(4);
+  std::vector<Grid> grids[2];
+  for (int side = 0; side < 2; ++side) {
+    for (int axis = 0; axis < 3; ++axis) grids[side].push_back(test::sampled(128, [&](const Vector3d& p) { return 0.28 * p[axis]; }));
+    grids[side].push_back(test::sampled(128, [&](const Vector3d& p) { return std::sin((side + 1) * 5 * p[0]); }));
+  }
+  ElasticParameters parameters;
+  parameters.signals = 1000;
+  parameters.longest_move = 0.5;
+  const Outcome outcome = flow(GridSamples(grids[0]), GridSamples(grids[1]), mesh, parameters);
+  EXPECT_GT((outcome.target - mesh.nodes()).rowwise().norm().maxCoeff(), 0.1);
+  EXPECT_TRUE(flipped_faces(outcome.source, mesh.faces()).empty());
+  EXPECT_TRUE(flipped_faces(outcome.target, mesh.faces()).empty());
+}
+
+TEST(ElasticFlow, IsTheSameOnAnyNumberOfThreads) {
+  const NodeMesh mesh(4);
   const Reparametrization turned = [](const Vector3d& p) -> Vector3d { return Eigen::AngleAxisd(0.1, Vector3d::UnitY()) * p; };
   const GridSamples a = ellipsoid_through(same), b = ellipsoid_through(turned);
-  const Outcome there = flow(a, b, mesh, {}), back = flow(b, a, mesh, {});
-  EXPECT_LT((there.source - back.target).cwiseAbs().maxCoeff(), 1e-9);
-  EXPECT_LT((there.target - back.source).cwiseAbs().maxCoeff(), 1e-9);
+  const HintDirections hints{Points(0, 3), Points(0, 3)};
+  NodeMap one = unmoved(a, b, mesh), three = one;
+  (void)flow_elastically(one, channels(a), channels(b), hints, {}, {}, 1);
+  (void)flow_elastically(three, channels(a), channels(b), hints, {}, {}, 3);
+  EXPECT_EQ(one.source(), three.source());
+  EXPECT_EQ(one.target(), three.target());
 }
 
 TEST(ElasticFlow, HintsDrawTheirPointsTogether) {
-  const NodeMesh mesh(4, 64);
+  const NodeMesh mesh(4);
   const GridSamples body = ellipsoid_through(same);
   HintDirections hints{Points(1, 3), Points(1, 3)};
   hints.source << 0, 0.6, 0.8;
   hints.target << 0, 0.8, 0.6;
   const auto gap = [&](const HintDirections& given) {
-    const std::vector<Eigen::Index> none;
-    GridFlowSide source(body, none, Matrix3d::Identity(), 64), target(body, none, Matrix3d::Identity(), 64);
-    (void)flow_elastically(source, channels(body), target, channels(body), given, mesh, {}, {});
-    return (source.warp().forward(hints.source) - target.warp().forward(hints.target)).norm();
+    NodeMap map = unmoved(body, body, mesh);
+    (void)flow_elastically(map, channels(body), channels(body), given, {}, {}, 1);
+    return (map.forward(hints.source) - hints.target).norm();
   };
   EXPECT_NEAR(gap({Points(0, 3), Points(0, 3)}), 0.283, 1e-3);
   // Measured: 0.021; the body resists a little.
@@ -136,7 +159,7 @@ TEST(ElasticFlow, HintsDrawTheirPointsTogether) {
 }
 
 TEST(ElasticFlow, StopsWhenCancelled) {
-  const NodeMesh mesh(3, 64);
+  const NodeMesh mesh(3);
   std::stop_source stop;
   stop.request_stop();
   const GridSamples body = ellipsoid_through(same);

@@ -6,57 +6,70 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/sphere/grid.h"
-
 namespace spherematch {
 namespace {
 
 using Eigen::Vector3d;
 
-TEST(NodeMesh, FieldOfDerivativesIsTheGradient) {
+TEST(NodeMesh, DerivativesAreTheGradient) {
   double previous = 1;
   for (const int subdivisions : {3, 4, 5}) {
-    const NodeMesh mesh(subdivisions, 64);
+    const NodeMesh mesh(subdivisions);
+    // Nodes that have moved, evenly and unevenly.
+    Points places = mesh.nodes();
+    for (Eigen::Index i = 0; i < places.rows(); ++i) places.row(i) = (places.row(i) + 0.2 * places.row(i).cwiseAbs2()).normalized();
     // Two functions, to see that they are kept apart: |p + c|^2 up to a constant, and x y.
     const Vector3d c(0.3, -0.7, 0.2);
-    NodeMesh::Values values(mesh.count(), 2);
-    values << mesh.nodes() * c, mesh.nodes().col(0).cwiseProduct(mesh.nodes().col(1));
-    const NodeMesh::Values derivatives = mesh.derivatives(values);
+    PointValues values(mesh.count(), 2), derivatives(mesh.count(), 4);
+    values << places * c, places.col(0).cwiseProduct(places.col(1));
+    std::vector<TangentFrame> frames;
+    for (Eigen::Index i = 0; i < places.rows(); ++i) frames.push_back(tangent_frame(places.row(i)));
+    mesh.differentiate(values, places, frames, 0, 100, derivatives);
+    mesh.differentiate(values, places, frames, 100, mesh.count(), derivatives);
     double worst = 0;
-    for (int f = 0; f < 2; ++f) {
-      Eigen::VectorXd u(2 * mesh.count());
-      for (Eigen::Index i = 0; i < mesh.count(); ++i) u.segment<2>(2 * i) << derivatives(i, f), derivatives(i, 2 + f);
-      const TangentGrid field = mesh.field(u);
-      const Points centers = cell_centers(64);
-      for (Eigen::Index i = 0; i < centers.rows(); ++i) {
-        const Vector3d p = centers.row(i), gradient = f == 0 ? c : Vector3d(p.y(), p.x(), 0);
-        const double colatitude = std::acos(p.z()), longitude = std::atan2(p.y(), p.x());
-        const Vector3d down(std::cos(colatitude) * std::cos(longitude), std::cos(colatitude) * std::sin(longitude), -std::sin(colatitude));
-        const Vector3d east(-std::sin(longitude), std::cos(longitude), 0);
-        worst = std::max(
-            {worst, std::abs(field.colatitude.data()[i] - gradient.dot(down)), std::abs(field.longitude.data()[i] - gradient.dot(east))});
+    for (Eigen::Index i = 0; i < places.rows(); ++i)
+      for (int f = 0; f < 2; ++f) {
+        const Vector3d gradient = f == 0 ? c : Vector3d(places(i, 1), places(i, 0), 0);
+        const Eigen::Vector2d expected = frames[static_cast<std::size_t>(i)].transpose() * gradient;
+        worst = std::max(worst, (expected - Eigen::Vector2d(derivatives(i, f), derivatives(i, 2 + f))).cwiseAbs().maxCoeff());
       }
-    }
     EXPECT_LT(worst, 0.6 * previous);
     previous = worst;
   }
-  EXPECT_LT(previous, 0.01);
+  EXPECT_LT(previous, 0.02);
+}
+
+TEST(NodeMesh, FramesAreOrthonormalTangents) {
+  for (const Vector3d& p : {Vector3d(0, 0, 1), Vector3d(1, 0, 0), Vector3d(0.6, 0, -0.8)}) {
+    Eigen::Matrix3d basis;
+    basis << tangent_frame(p), p;
+    EXPECT_LT((basis.transpose() * basis - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+  }
+}
+
+TEST(NodeMesh, ParentsAreTheEndsOfTheEdgeThatANodeIsInTheMiddleOf) {
+  const NodeMesh coarse(2), fine(3);
+  for (Eigen::Index i = 0; i < fine.count(); ++i) {
+    const auto& [a, b] = fine.parents(i);
+    ASSERT_LT(std::max<Eigen::Index>(a, b), coarse.count());
+    EXPECT_EQ(a == b, i < coarse.count());
+    EXPECT_LT(((coarse.nodes().row(a) + coarse.nodes().row(b)).normalized() - fine.nodes().row(i)).norm(), 1e-14);
+  }
 }
 
 TEST(NodeMesh, AreasAddUpToTheFacesOnes) {
-  const NodeMesh mesh(3, 16);
-  double nodes = 0, faces = 0;
-  for (Eigen::Index i = 0; i < mesh.count(); ++i) nodes += mesh.area(i);
+  const NodeMesh mesh(3);
+  double faces = 0;
   for (Eigen::Index f = 0; f < mesh.faces().rows(); ++f) {
     const Vector3d a = mesh.nodes().row(mesh.faces()(f, 0)), b = mesh.nodes().row(mesh.faces()(f, 1)),
                    c = mesh.nodes().row(mesh.faces()(f, 2));
     faces += (b - a).cross(c - a).norm() / 2;
   }
-  EXPECT_NEAR(nodes, faces, 1e-12);
+  EXPECT_NEAR(mesh.areas().sum(), faces, 1e-12);
 }
 
 TEST(NodeMesh, SlotsAreWhereThePatternHasTheirEntries) {
-  const NodeMesh mesh(2, 16);
+  const NodeMesh mesh(2);
   for (const Eigen::Index face : {Eigen::Index{0}, Eigen::Index{77}, mesh.faces().rows() - 1}) {
     Eigen::SparseMatrix<double> matrix = mesh.pattern();
     for (std::size_t slot = 0; slot < 21; ++slot) matrix.valuePtr()[mesh.face_slots(face)[slot]] = static_cast<double>(slot + 1);
