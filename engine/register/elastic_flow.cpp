@@ -1,6 +1,5 @@
 #include "engine/register/elastic_flow.h"
 
-#include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -126,13 +125,14 @@ class ElasticSystem {
         right_.segment<2>(2 * node) -= term.gradient.segment<2>(2 * k);
         masses_[node] += term.area / 3;
       }
-      add_lower_half(mesh_.face_slots(f), term.curvature);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          matrix_.add(mesh_.face_slots(f)[static_cast<std::size_t>(3 * i + j)], term.curvature.block<2, 2>(2 * i, 2 * j));
     }
   }
 
   /// After the strain, which says how much surface is round each node.
   void add_signals(const PointValues& resting, const MovingSide& moving, const std::vector<double>& weights) {
-    double* entries = matrix_.valuePtr();
     for (Eigen::Index i = 0; i < mesh_.count(); ++i) {
       const double inertia = kInertia * mesh_.areas()[i];
       double first = inertia, mixed = 0, second = inertia;
@@ -147,10 +147,9 @@ class ElasticSystem {
         right_[2 * i + 1] -= weight * difference * b;
         energy_.signals += weights[k] * masses_[i] * difference * difference;
       }
-      const NodeMesh::NodeSlots& slots = mesh_.node_slots(i);
-      entries[slots[0]] += first;
-      entries[slots[1]] += mixed;
-      entries[slots[2]] += second;
+      Eigen::Matrix2d block;
+      block << first, mixed, mixed, second;
+      matrix_.add(mesh_.node_slot(i), block);
     }
   }
 
@@ -165,14 +164,12 @@ class ElasticSystem {
       if (shares[i] == 0) continue;
       const double weight = kPairWeight * shares[i] / sum;
       right_.segment<2>(2 * i) += weight * frames[static_cast<std::size_t>(i)].transpose() * wanted;
-      const NodeMesh::NodeSlots& slots = mesh_.node_slots(i);
-      matrix_.valuePtr()[slots[0]] += weight;
-      matrix_.valuePtr()[slots[2]] += weight;
+      matrix_.add(mesh_.node_slot(i), weight * Eigen::Matrix2d::Identity());
     }
   }
 
-  [[nodiscard]] const Eigen::SparseMatrix<double>& matrix() const { return matrix_; }
-  [[nodiscard]] const Eigen::VectorXd& right() const { return right_; }
+  /// The step, two components per node.
+  [[nodiscard]] Eigen::VectorXd solve() const { return matrix_.solve(right_, kTolerance, kMostIterations); }
   /// Before the step; to be asked for when everything is added.
   [[nodiscard]] ElasticEnergy energy() const {
     if (!(area_ > 0)) return {};
@@ -180,16 +177,9 @@ class ElasticSystem {
   }
 
  private:
-  void add_lower_half(const NodeMesh::FaceSlots& slots, const Eigen::Matrix<double, 6, 6>& values) {
-    double* entries = matrix_.valuePtr();
-    std::size_t next = 0;
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j <= i; ++j) entries[slots[next++]] += values(i, j);
-  }
-
   const NodeMesh& mesh_;
   const ElasticParameters& parameters_;
-  Eigen::SparseMatrix<double> matrix_;
+  BlockMatrix matrix_;
   Eigen::VectorXd right_;
   Eigen::VectorXd masses_;  ///< of the nodes: surface area round each
   ElasticEnergy energy_;
@@ -258,10 +248,6 @@ ElasticEnergy flow_elastically(NodeMap& map, const ElasticChannels& source, cons
   const NodeMesh& mesh = map.mesh();
   Side sides[2] = {{target, hints.target, map.target(), sample(target, map.target(), threads)},
                    {source, hints.source, map.source(), sample(source, map.source(), threads)}};
-  // Preconditioned by the diagonal: some 60 cheap iterations take less time than an incomplete factor or a factorisation.
-  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower> solver;
-  solver.setTolerance(kTolerance);
-  solver.setMaxIterations(kMostIterations);
   ElasticEnergy energy;
   for (int iteration = 0; iteration < parameters.iterations; ++iteration) {
     progress.check();
@@ -272,9 +258,7 @@ ElasticEnergy flow_elastically(NodeMap& map, const ElasticChannels& source, cons
     system.add_signals(resting.values, t, source.weights);
     add_pairs(system, mesh.faces(), resting.places, resting.hints, moving.places, moving.hints, t.frames);
     energy = system.energy();
-    solver.compute(system.matrix());
-    if (solver.info() != Eigen::Success) break;  // a surface without any extent at the nodes
-    const Eigen::VectorXd u = solver.solve(system.right());
+    const Eigen::VectorXd u = system.solve();
     const double move = longest(u);
     if (!std::isfinite(move)) break;
     moving.places = stepped(moving.places, u, t.frames, parameters.longest_move, mesh);

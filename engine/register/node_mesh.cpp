@@ -49,30 +49,24 @@ void NodeMesh::find_faces() {
 }
 
 void NodeMesh::make_pattern() {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index f = 0; f < faces().rows(); ++f)
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < 6; ++j) {
-        const int row = 2 * faces()(f, i / 2) + i % 2, column = 2 * faces()(f, j / 2) + j % 2;
-        if (row >= column) entries.emplace_back(row, column, 0.0);
-      }
-  pattern_.resize(2 * count(), 2 * count());
-  pattern_.setFromTriplets(entries.begin(), entries.end());
-  const auto slot = [this](int row, int column) {
-    const int low = std::max(row, column), left = std::min(row, column);
-    const int* first = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[left];
-    const int* last = pattern_.innerIndexPtr() + pattern_.outerIndexPtr()[left + 1];
-    return static_cast<std::int32_t>(std::lower_bound(first, last, low) - pattern_.innerIndexPtr());
-  };
+  pattern_.start.push_back(0);
+  for (std::size_t node = 0; node + 1 < start_.size(); ++node) {
+    std::vector<std::int32_t> columns;
+    for (std::int32_t j = start_[node]; j < start_[node + 1]; ++j)
+      for (int k = 0; k < 3; ++k) columns.push_back(faces()(face_[static_cast<std::size_t>(j)], k));
+    std::sort(columns.begin(), columns.end());
+    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+    pattern_.column.insert(pattern_.column.end(), columns.begin(), columns.end());
+    pattern_.start.push_back(static_cast<std::int32_t>(pattern_.column.size()));
+    node_slots_.push_back(pattern_.slot(static_cast<std::int32_t>(node), static_cast<std::int32_t>(node)));
+  }
   for (Eigen::Index f = 0; f < faces().rows(); ++f) {
     FaceSlots slots;
-    std::size_t next = 0;
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j <= i; ++j) slots[next++] = slot(2 * faces()(f, i / 2) + i % 2, 2 * faces()(f, j / 2) + j % 2);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j)
+        slots[3 * i + j] = pattern_.slot(faces()(f, static_cast<Eigen::Index>(i)), faces()(f, static_cast<Eigen::Index>(j)));
     face_slots_.push_back(slots);
   }
-  for (int i = 0; i < static_cast<int>(count()); ++i)
-    node_slots_.push_back({slot(2 * i, 2 * i), slot(2 * i + 1, 2 * i), slot(2 * i + 1, 2 * i + 1)});
 }
 
 void NodeMesh::differentiate(const PointValues& values, const Points& places, const std::vector<TangentFrame>& frames, Eigen::Index first,

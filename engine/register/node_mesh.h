@@ -2,12 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <array>
 #include <cstdint>
 #include <vector>
 
 #include "engine/data/tri_mesh.h"
+#include "engine/register/block_matrix.h"
 #include "engine/sphere/flip_repair.h"
 
 namespace spherematch {
@@ -39,13 +39,13 @@ class NodeMesh {
   void differentiate(const PointValues& values, const Points& places, const std::vector<TangentFrame>& frames, Eigen::Index first,
                      Eigen::Index last, PointValues& result) const;
 
-  /// A symmetric matrix over the components of tangent vectors, with an entry for each two nodes of a triangle; the lower half.
-  [[nodiscard]] const Eigen::SparseMatrix<double>& pattern() const { return pattern_; }
-  /// Where the pattern's values have the lower half of the 6 x 6 matrix of a face, row by row; and of the 2 x 2 matrix of a node.
-  using FaceSlots = std::array<std::int32_t, 21>;
-  using NodeSlots = std::array<std::int32_t, 3>;
+  /// Of a matrix over the components of vectors at the nodes, with a block for each two nodes of a triangle.
+  [[nodiscard]] const BlockPattern& pattern() const { return pattern_; }
+  /// The slots of a face's nodes: that of corners i and j is the entry 3 i + j.
+  using FaceSlots = std::array<std::int32_t, 9>;
   [[nodiscard]] const FaceSlots& face_slots(Eigen::Index face) const { return face_slots_[static_cast<std::size_t>(face)]; }
-  [[nodiscard]] const NodeSlots& node_slots(Eigen::Index node) const { return node_slots_[static_cast<std::size_t>(node)]; }
+  /// The slot of a node on the diagonal.
+  [[nodiscard]] std::int32_t node_slot(Eigen::Index node) const { return node_slots_[static_cast<std::size_t>(node)]; }
 
  private:
   void find_parents(int subdivisions);
@@ -57,9 +57,9 @@ class NodeMesh {
   Eigen::VectorXd areas_;
   std::vector<std::array<std::int32_t, 2>> parents_;
   std::vector<std::int32_t> start_, face_;  ///< the faces round each node, compressed rows
-  Eigen::SparseMatrix<double> pattern_;
+  BlockPattern pattern_;
   std::vector<FaceSlots> face_slots_;
-  std::vector<NodeSlots> node_slots_;
+  std::vector<std::int32_t> node_slots_;
 };
 
 }  // namespace spherematch

@@ -68,23 +68,24 @@ TEST(NodeMesh, AreasAddUpToTheFacesOnes) {
   EXPECT_NEAR(mesh.areas().sum(), faces, 1e-12);
 }
 
-TEST(NodeMesh, SlotsAreWhereThePatternHasTheirEntries) {
+TEST(NodeMesh, SlotsAreWhereThePatternHasTheirBlocks) {
   const NodeMesh mesh(2);
-  for (const Eigen::Index face : {Eigen::Index{0}, Eigen::Index{77}, mesh.faces().rows() - 1}) {
-    Eigen::SparseMatrix<double> matrix = mesh.pattern();
-    for (std::size_t slot = 0; slot < 21; ++slot) matrix.valuePtr()[mesh.face_slots(face)[slot]] = static_cast<double>(slot + 1);
-    std::size_t slot = 0;
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j <= i; ++j) {
-        const int row = 2 * mesh.faces()(face, i / 2) + i % 2, column = 2 * mesh.faces()(face, j / 2) + j % 2;
-        EXPECT_EQ(matrix.coeff(std::max(row, column), std::min(row, column)), static_cast<double>(++slot));
+  const BlockPattern& pattern = mesh.pattern();
+  ASSERT_EQ(pattern.start.size(), static_cast<std::size_t>(mesh.count()) + 1);
+  // A node and its neighbours: each edge twice.
+  EXPECT_EQ(pattern.column.size(), static_cast<std::size_t>(mesh.count() + 3 * mesh.faces().rows()));
+  const auto row_of = [&](std::int32_t slot) {
+    return static_cast<std::int32_t>(std::upper_bound(pattern.start.begin(), pattern.start.end(), slot) - pattern.start.begin()) - 1;
+  };
+  for (Eigen::Index face = 0; face < mesh.faces().rows(); ++face)
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) {
+        const std::int32_t slot = mesh.face_slots(face)[3 * i + j];
+        EXPECT_EQ(row_of(slot), mesh.faces()(face, static_cast<Eigen::Index>(i)));
+        EXPECT_EQ(pattern.column[static_cast<std::size_t>(slot)], mesh.faces()(face, static_cast<Eigen::Index>(j)));
       }
-  }
-  Eigen::SparseMatrix<double> matrix = mesh.pattern();
-  for (std::size_t slot = 0; slot < 3; ++slot) matrix.valuePtr()[mesh.node_slots(5)[slot]] = static_cast<double>(slot + 1);
-  EXPECT_EQ(matrix.coeff(10, 10), 1);
-  EXPECT_EQ(matrix.coeff(11, 10), 2);
-  EXPECT_EQ(matrix.coeff(11, 11), 3);
+  EXPECT_EQ(row_of(mesh.node_slot(5)), 5);
+  EXPECT_EQ(pattern.column[static_cast<std::size_t>(mesh.node_slot(5))], 5);
 }
 
 }  // namespace
