@@ -56,6 +56,7 @@ void run_symmetry(const ExperimentSettings& settings) {
       for (std::size_t v = 0; v < variants.size(); ++v) {
         MatchParameters parameters = variants[v].parameters;
         parameters.orientation = Orientation::reverse;
+        // One object twice: the engine then knows that it looks for a symmetry.
         const MatchResult result = match(shape, shape, parameters, {}, settings.threads);
         all[v].pairs.push_back(
             {file.stem().string(), file.stem().string(), evaluate(shape, shape, result.map, nullptr, truth, {}, settings.threads)});
