@@ -21,7 +21,7 @@ constexpr double kPairWeight = 10;
 constexpr double kPairReach = 0.3;  ///< radians round a pair in which nodes are drawn along
 
 /// Of the equations' residual. At 0.03 what is smooth is left over, and errors are larger by 2 percent.
-constexpr double kTolerance = 0.01;
+constexpr double kTolerance = 0.005;
 constexpr int kMostIterations = 200;
 
 /// Calls task(first, last) for runs of 0 .. count - 1 that do not depend on the number of threads.
