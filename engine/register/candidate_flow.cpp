@@ -27,8 +27,8 @@ constexpr double kCoarseGuide = 1.2, kFineGuide = 0.5;
 /// another in another pose. Between different shapes backs and chests differ too much to be compared.
 constexpr double kCurvatureWeight = 0.15;
 
-/// Of the mean square of strains, by whose power the signals' cost is multiplied: a wrong registration strains the surfaces more, too.
-constexpr double kStrainExponent = 0.125;
+/// Of the mean square of strains, by whose power the signals' cost is multiplied.
+constexpr double kStrainExponent = 0.25;
 
 constexpr int kNodes = 64;  ///< resolution of the grid on which registrations are followed and compared
 
@@ -101,30 +101,24 @@ std::vector<double> selection_weights(const Pair& pair) {
   return weights;
 }
 
-/// After the optical flow, at the points of a grid.
-void judge_on_grid(Registration& registration, const Pair& pair, int resolution) {
-  const Points s = registration.source->origins(resolution), t = registration.target->origins(resolution);
+/// After the optical flow.
+void judge_by_signals(Registration& registration, const Pair& pair, int nodes) {
+  const Points s = registration.source->origins(nodes), t = registration.target->origins(nodes);
   const RegisteredSignals f{pair.source.shape.signals(), pair.source.selection_channels, s};
   const RegisteredSignals g{pair.target.shape.signals(), pair.target.selection_channels, t};
-  if (pair.parameters.paper_selection) {
-    registration.score = paper_cost(f, g, resolution);
-  } else {
-    const Eigen::VectorXd areas = cell_areas(resolution).replicate(1, resolution).reshaped<Eigen::RowMajor>();
-    registration.score = registration_cost(f, g, selection_weights(pair), areas);
-  }
+  registration.cost = pair.parameters.paper_selection ? paper_cost(f, g, nodes) : registration_cost(f, g, selection_weights(pair), nodes);
+  registration.score = registration.cost;
   if (pair.hints.source.rows() == 0) return;
   const Points from = registration.source->warp().forward(pair.hints.source), to = registration.target->warp().forward(pair.hints.target);
   registration.score += kHintWeight * hint_distance(from, to);
 }
 
-/// After the elastic flow, at the nodes.
-void judge_at_nodes(Registration& registration, const Pair& pair) {
-  const NodeMap& map = *registration.map;
-  const RegisteredSignals f{pair.source.shape.signals(), pair.source.selection_channels, map.source()};
-  const RegisteredSignals g{pair.target.shape.signals(), pair.target.selection_channels, map.target()};
-  registration.score =
-      registration_cost(f, g, selection_weights(pair), map.mesh().areas()) * std::pow(registration.elastic.strain, kStrainExponent);
-  if (pair.hints.source.rows() > 0) registration.score += kHintWeight * hint_distance(map.forward(pair.hints.source), pair.hints.target);
+/// After the elastic flow too. It fits the signals of a wrong registration nearly as well as those of the right one, but strains the
+/// surfaces more to do so: then the strain tells, and what the signals cost before it.
+void judge_by_strain(Registration& registration, const Pair& pair) {
+  registration.score = registration.cost * std::pow(registration.elastic.strain, kStrainExponent);
+  if (pair.hints.source.rows() > 0)
+    registration.score += kHintWeight * hint_distance(registration.map->forward(pair.hints.source), pair.hints.target);
 }
 
 /// One level of the elastic flow.
@@ -178,7 +172,7 @@ std::vector<std::size_t> flow_candidates(std::vector<Registration>& registration
       if (registration.guided)
         pull_together(*registration.source, *registration.target, pair.hints, first == 0 ? kCoarseGuide : kFineGuide);
       flow_together(*registration.source, *registration.target, plan, progress);
-      judge_on_grid(registration, pair, plan.nodes());
+      judge_by_signals(registration, pair, plan.nodes());
     });
     std::stable_sort(order.begin(), order.end(), better);
   };
@@ -199,7 +193,7 @@ std::vector<std::size_t> flow_candidates(std::vector<Registration>& registration
     run_parallel(order.size(), threads, [&](std::size_t i) {
       Registration& registration = registrations[order[i]];
       relax(registration, pair, 0, progress, threads_each);
-      judge_at_nodes(registration, pair);
+      judge_by_strain(registration, pair);
     });
     std::stable_sort(order.begin(), order.end(), better);
   }

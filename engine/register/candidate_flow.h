@@ -41,7 +41,8 @@ struct Registration {
   std::size_t candidate;  ///< index of its rotation
   bool guided;            ///< pulled together at the hints before the flow
   std::unique_ptr<FlowSide> source, target;
-  double score = 0;
+  double cost = 0;                  ///< of the signals' differences after the optical flow
+  double score = 0;                 ///< lowest for the best
   std::optional<NodeMap> map = {};  ///< since the elastic flow
   ElasticEnergy elastic = {};       ///< of its last level
 };

@@ -13,38 +13,32 @@ double mean_over_sphere(const Grid& values) {
   return (values.colwise() * areas).sum() / (areas.sum() * static_cast<double>(values.rows()));
 }
 
-/// Calls visit(point, c, value) for each point's value of the c-th compared channel, point by point.
-template <typename Visit>
-void for_each_value(const RegisteredSignals& side, const Visit& visit) {
-  side.signals.for_each_stencil(side.origins, [&](Eigen::Index point, const GridSamples::Stencil& stencil) {
+/// One grid per channel.
+std::vector<Grid> on_grid(const RegisteredSignals& side, int resolution) {
+  std::vector<Grid> grids(side.channels.size(), Grid(resolution, resolution));
+  side.signals.for_each_stencil(side.origins, [&](Eigen::Index node, const GridSamples::Stencil& stencil) {
     Eigen::Index pack = -1;
     GridSamples::Pack values;
     for (std::size_t c = 0; c < side.channels.size(); ++c) {
       const Eigen::Index channel = side.channels[c];
       if (channel / 4 != pack) values = side.signals(stencil, static_cast<std::size_t>(pack = channel / 4));
-      visit(point, c, values[channel % 4]);
+      grids[c].data()[node] = values[channel % 4];
     }
   });
-}
-
-/// One grid per channel.
-std::vector<Grid> on_grid(const RegisteredSignals& side, int resolution) {
-  std::vector<Grid> grids(side.channels.size(), Grid(resolution, resolution));
-  for_each_value(side, [&](Eigen::Index point, std::size_t c, double value) { grids[c].data()[point] = value; });
   return grids;
 }
 
 }  // namespace
 
 double registration_cost(const RegisteredSignals& source, const RegisteredSignals& target, const std::vector<double>& weights,
-                         const Eigen::VectorXd& areas) {
-  Eigen::MatrixXd differences(static_cast<Eigen::Index>(weights.size()), areas.size());
-  for_each_value(source,
-                 [&](Eigen::Index point, std::size_t c, double value) { differences(static_cast<Eigen::Index>(c), point) = value; });
-  for_each_value(target,
-                 [&](Eigen::Index point, std::size_t c, double value) { differences(static_cast<Eigen::Index>(c), point) -= value; });
-  const Eigen::Map<const Eigen::VectorXd> w(weights.data(), static_cast<Eigen::Index>(weights.size()));
-  return std::sqrt(w.dot(differences.cwiseAbs2() * areas) / (w.sum() * areas.sum()));
+                         int resolution) {
+  const std::vector<Grid> f = on_grid(source, resolution), g = on_grid(target, resolution);
+  double squares = 0, weight = 0;
+  for (std::size_t c = 0; c < f.size(); ++c) {
+    squares += weights[c] * mean_over_sphere((f[c] - g[c]).square());
+    weight += weights[c];
+  }
+  return std::sqrt(squares / weight);
 }
 
 double paper_cost(const RegisteredSignals& source, const RegisteredSignals& target, int resolution) {

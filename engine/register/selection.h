@@ -9,8 +9,8 @@
 
 namespace spherematch {
 
-/// A shape's signals as they lie on the registered sphere: row i of the origins (P, 3) is the point of the prepared sphere that is
-/// registered at point i of a grid or of a NodeMesh. Refers to its members, which must outlive it.
+/// A shape's signals as they lie on the registered sphere: row i of the origins (N * N, 3) is the point of the prepared sphere that is
+/// registered at cell centre i of a grid (engine/register/flow_side.h). Refers to its members, which must outlive it.
 struct RegisteredSignals {
   const GridSamples& signals;
   const std::vector<Eigen::Index>& channels;  ///< those that are compared
@@ -19,12 +19,10 @@ struct RegisteredSignals {
 
 /// Root of the mean square difference of two shapes' signals over the sphere and over the channels, which have the given weights. Squares
 /// tell better than absolute values: a map that is turned round is wrong by much at feet, hands and face, which are small.
-/// `areas` (P): of the sphere round each point.
 [[nodiscard]] double registration_cost(const RegisteredSignals& source, const RegisteredSignals& target, const std::vector<double>& weights,
-                                       const Eigen::VectorXd& areas);
+                                       int resolution);
 
-/// The paper's cost: mean over the sphere, and over the channels, of the absolute difference of signals that are smoothed before. Points
-/// are the cell centres of a grid.
+/// The paper's cost: mean over the sphere, and over the channels, of the absolute difference of signals that are smoothed before.
 [[nodiscard]] double paper_cost(const RegisteredSignals& source, const RegisteredSignals& target, int resolution);
 
 }  // namespace spherematch

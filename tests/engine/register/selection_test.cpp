@@ -21,8 +21,6 @@ constexpr int kResolution = 64;
 
 Points turned_nodes(const Eigen::Matrix3d& turn) { return cell_centers(kResolution) * turn.transpose(); }
 
-Eigen::VectorXd node_areas() { return cell_areas(kResolution).replicate(1, kResolution).reshaped<Eigen::RowMajor>(); }
-
 TEST(SelectionSignals, TellTheEndsOfABodyApart) {
   TriMesh mesh = test::creature(3);
   mesh.vertices /= std::sqrt(face_areas(mesh.vertices, mesh.faces).sum());
@@ -40,7 +38,7 @@ TEST(SelectionSignals, TellTheEndsOfABodyApart) {
   const Points straight = turned_nodes(Eigen::Matrix3d::Identity());
   const auto cost = [&](const Eigen::Matrix3d& turn) {
     const Points turned = turned_nodes(turn);
-    return registration_cost({samples, all, turned}, {samples, all, straight}, selection_signal_weights(), node_areas());
+    return registration_cost({samples, all, turned}, {samples, all, straight}, selection_signal_weights(), kResolution);
   };
   EXPECT_EQ(cost(Eigen::Matrix3d::Identity()), 0);
   const double slightly = cost(Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitX()).toRotationMatrix());
@@ -61,7 +59,7 @@ const GridSamples& known_functions() {
 
 double cost_between(const std::vector<Eigen::Index>& f, const std::vector<Eigen::Index>& g, const std::vector<double>& weights) {
   const Points nodes = turned_nodes(Eigen::Matrix3d::Identity());
-  return registration_cost({known_functions(), f, nodes}, {known_functions(), g, nodes}, weights, node_areas());
+  return registration_cost({known_functions(), f, nodes}, {known_functions(), g, nodes}, weights, kResolution);
 }
 
 TEST(RegistrationCost, IsTheRootOfTheMeanSquareDifference) {
