@@ -39,6 +39,7 @@ struct EvaluationRequest {
   bool biharmonic = true;  ///< biharmonic distances as well
   std::vector<std::array<std::int32_t, 2>> hints;
   std::string method = "default";
+  std::string refine = "default";  ///< or "none": without the elastic flow
   std::string orientation = "preserve";
   std::int32_t candidate = 0;  ///< 0: of the best rotation, 1: of the next best
   bool operator==(const EvaluationRequest&) const = default;

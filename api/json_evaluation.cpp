@@ -143,6 +143,7 @@ Json to_json(const EvaluationRequest& value) {
             {"base", value.base}, {"both", value.both}, {"biharmonic", value.biharmonic}};
   if (!value.hints.empty()) json["hints"] = value.hints;
   json["method"] = value.method;
+  json["refine"] = value.refine;
   json["orientation"] = value.orientation;
   json["candidate"] = value.candidate;
   return json;
@@ -178,6 +179,7 @@ EvaluationRequest from_text<EvaluationRequest>(std::string_view text) {
   if (reader.has("biharmonic")) request.biharmonic = reader.boolean("biharmonic");
   if (reader.has("hints")) request.hints = read_hints(reader.member("hints"), "hints");
   if (reader.has("method")) request.method = reader.text("method");
+  if (reader.has("refine")) request.refine = reader.text("refine");
   if (reader.has("orientation")) request.orientation = reader.text("orientation");
   if (reader.has("candidate")) request.candidate = reader.count("candidate");
   reader.finish();

@@ -96,8 +96,8 @@ std::vector<std::array<std::string, 2>> read_pairs(const Json& value, const std:
 }
 
 Json pairs_json(const MatchRequest& value) {
-  return {
-      {"pairs", value.pairs}, {"fields", value.fields}, {"both", value.both}, {"method", value.method}, {"orientation", value.orientation}};
+  return {{"pairs", value.pairs},   {"fields", value.fields}, {"both", value.both},
+          {"method", value.method}, {"refine", value.refine}, {"orientation", value.orientation}};
 }
 
 }  // namespace
@@ -128,6 +128,7 @@ Json to_json(const MatchRequest& value) {
   }
   if (!value.hints.empty()) json["hints"] = value.hints;
   json["method"] = value.method;
+  json["refine"] = value.refine;
   json["orientation"] = value.orientation;
   return json;
 }
@@ -150,6 +151,7 @@ MatchRequest from_text<MatchRequest>(std::string_view text) {
     if (!request.points && !request.landmarks) throw JsonError("the document: must have points, landmarks or pairs");
   }
   if (reader.has("method")) request.method = reader.text("method");
+  if (reader.has("refine")) request.refine = reader.text("refine");
   if (reader.has("orientation")) request.orientation = reader.text("orientation");
   reader.finish();
   return request;

@@ -178,6 +178,7 @@ struct MatchRequest {
   std::string fields = "vertex";                    ///< of many pairs
   bool both = false;                                ///< of many pairs
   std::string method = "default";
+  std::string refine = "default";  ///< or "none": without the elastic flow
   std::string orientation = "preserve";
   bool operator==(const MatchRequest&) const = default;
 };

@@ -37,6 +37,7 @@ struct PrepareOptions : CommonOptions {
 /// Flags of the subcommands that match.
 struct MatchingOptions : CommonOptions {
   std::string method = "default";
+  std::string refine = "default";
   std::string orientation = "preserve";
   int candidate = 0;
 };

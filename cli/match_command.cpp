@@ -79,6 +79,7 @@ void add_shared_options(CLI::App& command, MatchOptions& options) {
 
 MatchParameters match_parameters(const MatchingOptions& options) {
   MatchParameters parameters = options.method == "paper" ? MatchParameters::paper() : MatchParameters{};
+  if (options.refine == "none") parameters.elastic_iterations = {};
   parameters.orientation = orientations.at(options.orientation);
   parameters.candidate = options.candidate;
   return parameters;
@@ -87,6 +88,9 @@ MatchParameters match_parameters(const MatchingOptions& options) {
 void add_matching_options(CLI::App& command, MatchingOptions& options) {
   command.add_option("--method", options.method, "Parameters of the match: the best measured ones, or the paper's")
       ->check(CLI::IsMember({"default", "paper"}))
+      ->capture_default_str();
+  command.add_option("--refine", options.refine, "The elastic flow after the optical flow: as the method has it, or none")
+      ->check(CLI::IsMember({"default", "none"}))
       ->capture_default_str();
   command.add_option("--candidate", options.candidate, "Which map: 0 for that of the best rotation, 1 for the next best")
       ->check(CLI::Range(0, MatchParameters{}.max_candidates - 1))

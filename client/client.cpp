@@ -39,7 +39,7 @@ void add_given(Query& query, const std::string& name, const std::optional<std::s
 }
 
 Query symmetry_query(const MatchOptions& options) {
-  Query query{{"wait", seconds(longest_wait)}, {"method", options.method}};
+  Query query{{"wait", seconds(longest_wait)}, {"method", options.method}, {"refine", options.refine}};
   std::string hints;
   for (const auto& [source, target] : options.hints) {
     hints.append(hints.empty() ? "" : ",").append(std::to_string(source)).append(":").append(std::to_string(target));

@@ -44,6 +44,7 @@ struct ShapeFilter {
 
 struct MatchOptions {
   std::string method = "default";
+  std::string refine = "default";  ///< "none": without the elastic flow
   std::string orientation = "preserve";
   std::vector<std::pair<std::int32_t, std::int32_t>> hints{};  ///< vertices of source and target
   bool both = false;

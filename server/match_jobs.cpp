@@ -23,8 +23,11 @@ std::string random_id() {
 }
 
 std::string options_text(const api::MatchRequest& request) {
-  return api::to_text(
-      api::Json{{"fields", request.fields}, {"both", request.both}, {"method", request.method}, {"orientation", request.orientation}});
+  return api::to_text(api::Json{{"fields", request.fields},
+                                {"both", request.both},
+                                {"method", request.method},
+                                {"refine", request.refine},
+                                {"orientation", request.orientation}});
 }
 
 /// Problems of the moment: the pair is tried again.
@@ -81,7 +84,8 @@ void MatchJobs::add(const std::string& id, std::string_view options, std::int32_
 
 MatchJobOptions MatchJobs::options_of(std::string_view stored) {
   const api::Json json = api::Json::parse(stored);
-  MatchJobOptions options{match_parameters_of(json.at("method").get<std::string>(), json.at("orientation").get<std::string>()),
+  const std::string refine = json.value("refine", "default");  // jobs of older servers do not say it
+  MatchJobOptions options{match_parameters_of(json.at("method").get<std::string>(), refine, json.at("orientation").get<std::string>()),
                           parse_fields(json.at("fields").get<std::string>())};
   options.parameters.both = json.at("both").get<bool>();
   return options;

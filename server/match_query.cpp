@@ -12,6 +12,7 @@ namespace spherematch {
 namespace {
 
 constexpr std::array<std::string_view, 2> methods{"default", "paper"};
+constexpr std::array<std::string_view, 2> refinements{"default", "none"};
 constexpr std::array<std::string_view, 3> orientations{"preserve", "reverse", "any"};  // in the order of Orientation
 constexpr std::array<std::string_view, 2> cache_modes{"yes", "no"};
 
@@ -40,8 +41,9 @@ void read_choices(MatchParameters& into, const RequestParameters& from) {
 
 }  // namespace
 
-MatchParameters match_parameters_of(std::string_view method, std::string_view orientation) {
+MatchParameters match_parameters_of(std::string_view method, std::string_view refine, std::string_view orientation) {
   MatchParameters parameters = index_in("method", method, methods) == 1 ? MatchParameters::paper() : MatchParameters{};
+  if (index_in("refine", refine, refinements) == 1) parameters.elastic_iterations = {};
   parameters.orientation = static_cast<Orientation>(index_in("orientation", orientation, orientations));
   return parameters;
 }
@@ -50,13 +52,17 @@ MatchQuery match_query_of(const RequestParameters& parameters) {
   MatchQuery query;
   query.src = parameters.required("src");
   query.tgt = parameters.required("tgt");
-  query.parameters = match_parameters_of(parameters.choice("method", methods), parameters.choice("orientation", orientations));
+  query.parameters = match_parameters_of(parameters.choice("method", methods), parameters.choice("refine", refinements),
+                                         parameters.choice("orientation", orientations));
   read_choices(query.parameters, parameters);
   return query;
 }
 
 MatchQuery symmetry_query_of(const std::string& shape, const RequestParameters& parameters) {
-  MatchQuery query{.src = shape, .tgt = shape, .parameters = match_parameters_of(parameters.choice("method", methods), "reverse")};
+  MatchQuery query{
+      .src = shape,
+      .tgt = shape,
+      .parameters = match_parameters_of(parameters.choice("method", methods), parameters.choice("refine", refinements), "reverse")};
   read_choices(query.parameters, parameters);
   return query;
 }

@@ -10,10 +10,10 @@
 
 namespace spherematch {
 
-/// Reads src, tgt, method, orientation, hints and candidate. @throws ProblemError(invalid_parameter)
+/// Reads src, tgt, method, refine, orientation, hints and candidate. @throws ProblemError(invalid_parameter)
 [[nodiscard]] MatchQuery match_query_of(const RequestParameters& parameters);
 
-/// The query for the symmetry of a shape, its match with its own mirror image. Reads method, hints and candidate.
+/// The query for the symmetry of a shape, its match with its own mirror image. Reads method, refine, hints and candidate.
 /// @throws ProblemError(invalid_parameter)
 [[nodiscard]] MatchQuery symmetry_query_of(const std::string& shape, const RequestParameters& parameters);
 
@@ -21,7 +21,7 @@ namespace spherematch {
 [[nodiscard]] MatchService::Cache cache_of(const RequestParameters& parameters);
 
 /// From words as they stand in a JSON body. @throws ProblemError(invalid_parameter)
-[[nodiscard]] MatchParameters match_parameters_of(std::string_view method, std::string_view orientation);
+[[nodiscard]] MatchParameters match_parameters_of(std::string_view method, std::string_view refine, std::string_view orientation);
 
 /// Waits up to `wait` until both shapes are ready.
 /// @throws ProblemError(not_found, shape_failed, shape_not_ready, overloaded, draining)

@@ -33,7 +33,7 @@ int candidate_of(const api::EvaluationRequest& request, int count) {
 }
 
 MatchQuery query_of(const api::EvaluationRequest& request) {
-  MatchQuery query{request.src, request.tgt, match_parameters_of(request.method, request.orientation)};
+  MatchQuery query{request.src, request.tgt, match_parameters_of(request.method, request.refine, request.orientation)};
   query.parameters.both = request.both;
   query.parameters.candidate = candidate_of(request, query.parameters.max_candidates);
   for (const auto& [source, target] : request.hints) query.parameters.hints.push_back({source, target});

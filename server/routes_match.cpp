@@ -57,7 +57,7 @@ MatchRequest request_for(MatchQuery query, const HttpRequest& from, const Reques
 
 MatchRequest parse_match(const HttpRequest& from) {
   const RequestParameters parameters(
-      from, {"src", "tgt", "format", "fields", "wait", "cache", "method", "orientation", "hints", "both", "candidate"});
+      from, {"src", "tgt", "format", "fields", "wait", "cache", "method", "refine", "orientation", "hints", "both", "candidate"});
   MatchRequest request = request_for(match_query_of(parameters), from, parameters);
   request.query.parameters.both = parameters.choice("both", no_or_yes) == "yes";
   const std::string_view format = request.representation->format;
@@ -68,7 +68,7 @@ MatchRequest parse_match(const HttpRequest& from) {
 }
 
 MatchRequest parse_symmetry(const HttpRequest& from) {
-  const RequestParameters parameters(from, {"format", "fields", "wait", "cache", "method", "hints", "candidate"});
+  const RequestParameters parameters(from, {"format", "fields", "wait", "cache", "method", "refine", "hints", "candidate"});
   return request_for(symmetry_query_of(from.id, parameters), from, parameters);
 }
 

@@ -40,7 +40,7 @@ std::optional<api::PointImage> answer_to(PointImages& images, const api::Surface
 }
 
 HttpResponse match_points(const ServerContext& context, const api::MatchRequest& request, std::chrono::milliseconds wait) {
-  MatchQuery query{request.src, request.tgt, match_parameters_of(request.method, request.orientation)};
+  MatchQuery query{request.src, request.tgt, match_parameters_of(request.method, request.refine, request.orientation)};
   for (const auto& [source, target] : request.hints) query.parameters.hints.push_back({source, target});
   await_shapes(context.shapes, query, wait);
   const ShapePointer source = context.shapes.load(query.src);

@@ -37,7 +37,7 @@ HttpResponse make_scene(const ServerContext& context, const MatchQuery& query, c
 }
 
 HttpResponse get_scene(const ServerContext& context, const HttpRequest& request) {
-  const RequestParameters parameters(request, {"src", "tgt", "format", "wait", "cache", "method", "orientation", "hints"});
+  const RequestParameters parameters(request, {"src", "tgt", "format", "wait", "cache", "method", "refine", "orientation", "hints"});
   const MatchQuery query = match_query_of(parameters);
   (void)choose_representation(parameters.text("format"), request.header("accept"), representations);
   const MatchService::Cache cache = cache_of(parameters);

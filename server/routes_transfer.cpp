@@ -52,7 +52,7 @@ void check_sizes(const ServerContext& context, const MatchQuery& query, const Ar
 }
 
 HttpResponse post_transfer(const ServerContext& context, HttpRequest& request) {
-  const RequestParameters parameters(request, {"src", "tgt", "interp", "wait", "cache", "method", "orientation", "hints"});
+  const RequestParameters parameters(request, {"src", "tgt", "interp", "wait", "cache", "method", "refine", "orientation", "hints"});
   const MatchQuery query = match_query_of(parameters);
   const MatchService::Cache cache = cache_of(parameters);
   const auto wait = parameters.seconds("wait", 30, max_wait_seconds);

@@ -20,6 +20,7 @@ TEST(JsonEvaluation, RequestsSurviveTheJourney) {
     request.biharmonic = false;
     request.hints = {{1, 2}};
     request.method = "paper";
+    request.refine = "none";
     request.orientation = "any";
     request.candidate = 1;
   }

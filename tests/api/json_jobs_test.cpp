@@ -15,6 +15,7 @@ MatchRequest sample_points() {
   request.landmarks = {{"nose", 3}, {"left \"toe\"", PositionPoint{{1, 2, 3}}}};
   request.hints = {{1, 2}, {3, 4}};
   request.method = "paper";
+  request.refine = "none";
   return request;
 }
 
@@ -23,6 +24,7 @@ MatchRequest sample_pairs() {
   request.pairs = {{"a", "b"}, {"b", "c"}};
   request.fields = "vertex,bary";
   request.both = true;
+  request.refine = "none";
   request.orientation = "any";
   return request;
 }

@@ -141,9 +141,9 @@ TEST_F(ClientTest, ASymmetryIsAskedForByItsShape) {
   options.hints = {{1, 2}};
   options.cache = false;
   EXPECT_EQ(client().symmetry_info("s", options), match);
-  EXPECT_EQ(target, "/shapes/s/symmetry?wait=60.000000&method=default&hints=1%3A2&cache=no&format=json&fields=");
+  EXPECT_EQ(target, "/shapes/s/symmetry?wait=60.000000&method=default&refine=default&hints=1%3A2&cache=no&format=json&fields=");
   (void)client().symmetry_file("s", "ply");
-  EXPECT_EQ(target, "/shapes/s/symmetry?wait=60.000000&method=default&format=ply");
+  EXPECT_EQ(target, "/shapes/s/symmetry?wait=60.000000&method=default&refine=default&format=ply");
   EXPECT_THROW((void)client().symmetry("s"), FormatError);  // JSON is no NPZ
 }
 

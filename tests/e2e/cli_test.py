@@ -97,6 +97,13 @@ class CliTest(support.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             with open(f'{self.place}/map.{extension}', 'rb') as file:
                 self.assertEqual(file.read(), server.get(f'/shapes/{shape}/symmetry', format=extension, hints='3:4').body, extension)
+        done = self.run_cli('symmetry', 'a.off', '--store', self.store, '-o', 'map.npz', '--refine', 'none')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.place + '/map.npz', 'rb') as file:
+            plain = file.read()
+        self.assertEqual(plain, server.get(f'/shapes/{shape}/symmetry', format='npz', refine='none').body)
+        self.assertNotEqual(plain, server.get(f'/shapes/{shape}/symmetry', format='npz').body)
+        self.assertEqual(self.run_cli('symmetry', 'a.off', '--refine', 'x', '--store', self.store).returncode, 2)
         self.assertEqual(self.run_cli('symmetry', 'a.off', '--candidate', '8', '--store', self.store).returncode, 2)
         missing = self.run_cli('symmetry', 'a.off', '--candidate', '7', '--store', self.store)
         self.assertEqual(missing.returncode, 3)

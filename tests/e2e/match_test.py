@@ -148,10 +148,16 @@ class MatchTest(support.TestCase):
         self.assertEqual(self.match(headers={'Accept': 'image/avif,image/webp,image/*,*/*;q=0.8'}).headers['Content-Type'], 'image/png')
 
     def test_parameters_are_checked(self):
-        for wrong in ({'bogus': '1'}, {'format': 'exe'}, {'fields': 'x'}, {'wait': 'x'}, {'cache': 'x'}, {'method': 'x'}):
+        for wrong in ({'bogus': '1'}, {'format': 'exe'}, {'fields': 'x'}, {'wait': 'x'}, {'cache': 'x'}, {'method': 'x'}, {'refine': 'x'}):
             self.assert_problem(self.match(**wrong), 400, 'invalid-parameter')
         self.assert_problem(self.server.get('/match', src=self.src), 400, 'invalid-parameter')
         self.assertEqual(self.match(cache='no', method='paper', wait='1').status, 200)
+
+    def test_the_refinement_can_be_left_out(self):
+        refined, plain = self.match(format='npz', refine='default'), self.match(format='npz', refine='none')
+        self.assertEqual(refined.body, self.match(format='npz').body)
+        self.assertNotEqual(plain.body, refined.body)
+        self.assertNotEqual(plain.headers['ETag'], refined.headers['ETag'])
 
     def test_a_tag_spares_the_computation(self):
         first = self.match(format='npz')

@@ -100,7 +100,7 @@ class OpenApiTest(support.TestCase):
     def matches(self, checker):
         call, pair = checker.call, f'src={self.a}&tgt={self.b}'
         for rest in ('fields=vertex,corners,bary&both=yes', 'format=npz', 'format=npy', 'format=txt', 'format=ply', 'format=glb', 'format=obj',
-                     'format=png', 'fields=faces', 'orientation=any', 'candidate=0', 'candidate=7', 'hints=0:0', 'hints=0:99999'):
+                     'format=png', 'fields=faces', 'orientation=any', 'refine=none', 'refine=x', 'candidate=0', 'candidate=7', 'hints=0:0', 'hints=0:99999'):
             tagged = call('get', '/match', f'/match?{pair}&{rest}')
         tagged = call('get', '/match', '/match?' + pair)
         self.assertEqual(call('get', '/match', '/match?' + pair, headers={'If-None-Match': tagged.headers['ETag']}).status, 304)
@@ -119,7 +119,7 @@ class OpenApiTest(support.TestCase):
     def evaluations(self, checker):
         call, every = checker.call, list(range(162))
         for truth in (None, 'identity', every, {'source': every, 'target': every}, {'source': [0, 5], 'target': [0, 5], 'mirrored': [5, 0]}):
-            body = {'src': self.a, 'tgt': self.b, 'truth': truth, 'orientation': 'preserve'}
+            body = {'src': self.a, 'tgt': self.b, 'truth': truth, 'refine': 'none', 'orientation': 'preserve'}
             checker.validate(body, {'$ref': '#/components/schemas/EvaluationRequest'}, 'the request')
             self.assertEqual(call('post', '/evaluations', '/evaluations', json.dumps(body).encode()).status, 200)
             call('post', '/evaluations', '/evaluations?format=svg', json.dumps(body).encode())
@@ -129,7 +129,7 @@ class OpenApiTest(support.TestCase):
 
     def jobs(self, checker):
         call = checker.call
-        body = {'pairs': [[self.a, self.b], [self.b, self.a]], 'fields': 'vertex,bary', 'both': True}
+        body = {'pairs': [[self.a, self.b], [self.b, self.a]], 'fields': 'vertex,bary', 'both': True, 'refine': 'none'}
         checker.validate(body, {'$ref': '#/components/schemas/PairsRequest'}, 'the request')
         job = call('post', '/match', '/match', json.dumps(body).encode()).json()['id']
         lines = call('get', '/jobs/{id}/results', f'/jobs/{job}/results')

@@ -67,6 +67,7 @@ class PythonClientTest(support.TestCase):
         self.assertTrue((plain.vertex == both.vertex).all())
         self.assertLess(np.linalg.norm(plain.points(B[0]) - np.array(A[0]), axis=1).mean(), 0.3)
         self.assertEqual(self.client.match_info(self.a, self.b)['orientation'], 'preserve')
+        self.assertFalse((self.client.match(self.a, self.b, refine='none').bary == plain.bary).all())
         self.assertTrue(self.client.match_file(self.a, self.b, 'png').startswith(b'\x89PNG'))
         self.assertTrue(self.client.scene(self.a, self.b).startswith(b'glTF'))
         self.assertEqual(len(self.client.match(self.a, self.b, hints=[(0, 0), (5, 5)])), 162)

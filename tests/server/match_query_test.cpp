@@ -12,7 +12,7 @@ MatchQuery parse(std::multimap<std::string, std::string> query) {
   query.emplace("src", "s");
   query.emplace("tgt", "t");
   request.query = std::move(query);
-  return match_query_of(RequestParameters(request, {"src", "tgt", "method", "orientation", "hints", "candidate"}));
+  return match_query_of(RequestParameters(request, {"src", "tgt", "method", "refine", "orientation", "hints", "candidate"}));
 }
 
 TEST(MatchQuery, ReadsWhatDeterminesAMatch) {
@@ -23,6 +23,10 @@ TEST(MatchQuery, ReadsWhatDeterminesAMatch) {
   EXPECT_TRUE(plain.parameters.hints.empty());
   EXPECT_FALSE(plain.parameters.paper_selection);
   EXPECT_TRUE(parse({{"method", "paper"}}).parameters.paper_selection);
+  EXPECT_EQ(plain.parameters.elastic_iterations, MatchParameters{}.elastic_iterations);
+  EXPECT_EQ(parse({{"refine", "default"}}).parameters.elastic_iterations, MatchParameters{}.elastic_iterations);
+  EXPECT_TRUE(parse({{"refine", "none"}}).parameters.elastic_iterations.empty());
+  EXPECT_TRUE(parse({{"method", "paper"}, {"refine", "none"}}).parameters.paper_selection);
   EXPECT_EQ(parse({{"orientation", "reverse"}}).parameters.orientation, Orientation::reverse);
   EXPECT_EQ(parse({{"orientation", "any"}}).parameters.orientation, Orientation::any);
   EXPECT_EQ(parse({{"hints", "12:40,0:3"}}).parameters.hints, (std::vector<Hint>{{12, 40}, {0, 3}}));
@@ -32,12 +36,13 @@ TEST(MatchQuery, ReadsWhatDeterminesAMatch) {
 
 TEST(MatchQuery, ASymmetryIsOfOneShapeAndItsMirrorImage) {
   HttpRequest request;
-  request.query = {{"method", "paper"}, {"hints", "1:2"}};
-  const MatchQuery query = symmetry_query_of("s", RequestParameters(request, {"method", "hints"}));
+  request.query = {{"method", "paper"}, {"refine", "none"}, {"hints", "1:2"}};
+  const MatchQuery query = symmetry_query_of("s", RequestParameters(request, {"method", "refine", "hints"}));
   EXPECT_EQ(query.src, "s");
   EXPECT_EQ(query.tgt, "s");
   EXPECT_EQ(query.parameters.orientation, Orientation::reverse);
   EXPECT_TRUE(query.parameters.paper_selection);
+  EXPECT_TRUE(query.parameters.elastic_iterations.empty());
   EXPECT_EQ(query.parameters.hints, (std::vector<Hint>{{1, 2}}));
 }
 
@@ -50,6 +55,7 @@ TEST(MatchQuery, RefusesWhatItDoesNotKnow) {
   }
   EXPECT_THROW((void)parse({{"orientation", "mirror"}}), ProblemError);
   EXPECT_THROW((void)parse({{"method", "best"}}), ProblemError);
+  EXPECT_THROW((void)parse({{"refine", "more"}}), ProblemError);
   EXPECT_THROW((void)parse({{"candidate", "8"}}), ProblemError);
   EXPECT_THROW((void)parse({{"candidate", "4"}, {"method", "paper"}}), ProblemError);
   EXPECT_THROW((void)parse({{"candidate", "-1"}}), ProblemError);

@@ -100,6 +100,7 @@ TEST_F(RoutesEvaluations, TruthThatDoesNotFitIsRefusedBeforeAnythingIsComputed) 
   refused(R"("candidate": 8)", api::Code::invalid_parameter, "candidate: must be in [0, 7]");
   refused(R"("candidate": -1)", api::Code::invalid_parameter, "candidate");
   refused(R"("method": "x")", api::Code::invalid_parameter, "method");
+  refused(R"("refine": "x")", api::Code::invalid_parameter, "refine");
   EXPECT_EQ(engine.matches, 0);
 }
 
@@ -107,11 +108,12 @@ TEST_F(RoutesEvaluations, MatchParametersCount) {
   answer("");
   answer(R"("orientation": "any")");
   answer(R"("method": "paper")");
+  answer(R"("refine": "none")");
   answer(R"("hints": [[0, 1]])");
   answer(R"("candidate": 1)");
-  EXPECT_EQ(engine.matches, 5);
-  EXPECT_EQ(ask("", {{"cache", "no"}}).status, 200);
   EXPECT_EQ(engine.matches, 6);
+  EXPECT_EQ(ask("", {{"cache", "no"}}).status, 200);
+  EXPECT_EQ(engine.matches, 7);
   for (const auto& [name, value] : {std::pair("format", "png"), std::pair("cache", "x"), std::pair("wait", "x"), std::pair("src", "x")})
     EXPECT_EQ(problem_code(ask("", {{name, value}})), api::Code::invalid_parameter) << name;
 }

@@ -102,7 +102,7 @@ TEST_F(RoutesMatch, AShapeRemovedDuringTheMatchDoesNotSpoilItsMesh) {
 
 TEST_F(RoutesMatch, ParametersAreChecked) {
   EXPECT_EQ(problem_code(match({{"bogus", "1"}})), api::Code::invalid_parameter);
-  EXPECT_NE(match({{"bogus", "1"}}).body.find("src, tgt, format, fields, wait, cache, method, orientation, hints, both"),
+  EXPECT_NE(match({{"bogus", "1"}}).body.find("src, tgt, format, fields, wait, cache, method, refine, orientation, hints, both"),
             std::string::npos);
   EXPECT_EQ(problem_code(match({{"format", "exe"}})), api::Code::invalid_parameter);
   EXPECT_EQ(problem_code(match({{"fields", "faces"}})), api::Code::invalid_parameter);
@@ -111,6 +111,7 @@ TEST_F(RoutesMatch, ParametersAreChecked) {
     EXPECT_EQ(problem_code(match({{"fields", "vertex"}, {"format", format}})), api::Code::invalid_parameter);
   EXPECT_EQ(problem_code(match({{"cache", "maybe"}})), api::Code::invalid_parameter);
   EXPECT_EQ(problem_code(match({{"method", "best"}})), api::Code::invalid_parameter);
+  EXPECT_EQ(problem_code(match({{"refine", "more"}})), api::Code::invalid_parameter);
   EXPECT_EQ(problem_code(match({{"wait", "-1"}})), api::Code::invalid_parameter);
   EXPECT_EQ(problem_code(match({}, {{"accept", "image/gif"}})), api::Code::not_acceptable);
   EXPECT_EQ(problem_code(get("/match", {{"src", src}})), api::Code::invalid_parameter);
@@ -126,6 +127,17 @@ TEST_F(RoutesMatch, MethodSelectsTheParameters) {
   EXPECT_EQ(scored("default"), 0);
   EXPECT_EQ(scored("paper"), 1);
   EXPECT_NE(header(match({{"method", "paper"}}), "ETag"), header(match(), "ETag"));
+}
+
+TEST_F(RoutesMatch, AnUnrefinedMapIsAnotherResult) {
+  const std::string tag = header(match(), "ETag");
+  EXPECT_EQ(header(match({{"refine", "default"}}), "ETag"), tag);
+  EXPECT_EQ(engine.matches, 1);
+  EXPECT_NE(header(match({{"refine", "none"}}), "ETag"), tag);
+  EXPECT_EQ(engine.matches, 2);
+  // The paper's method has no refinement.
+  EXPECT_EQ(header(match({{"method", "paper"}, {"refine", "none"}}), "ETag"), header(match({{"method", "paper"}}), "ETag"));
+  EXPECT_EQ(engine.matches, 3);
 }
 
 TEST_F(RoutesMatch, AnotherCandidateIsAnotherResult) {
@@ -173,7 +185,8 @@ TEST_F(RoutesMatch, TheSymmetryIsTheMatchWithTheMirrorImage) {
   EXPECT_EQ(engine.matches, 2);
   EXPECT_EQ(get(path, {{"hints", "0:1"}}).status, 200);
   EXPECT_EQ(get(path, {{"method", "paper"}}).status, 200);
-  EXPECT_EQ(engine.matches, 4);
+  EXPECT_EQ(get(path, {{"refine", "none"}}).status, 200);
+  EXPECT_EQ(engine.matches, 5);
 }
 
 TEST_F(RoutesMatch, ASymmetryIsRefusedLikeAMatch) {

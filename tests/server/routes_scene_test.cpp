@@ -36,6 +36,7 @@ TEST_F(RoutesScene, ATagSparesTheComputationUntilAShapeIsRenamed) {
   EXPECT_EQ(scene(src, tgt, {}, {{"if-none-match", tag}}).status, 304);
   EXPECT_EQ(scene(tgt, src, {}, {{"if-none-match", tag}}).status, 200);
   EXPECT_EQ(scene(src, tgt, {{"method", "paper"}}, {{"if-none-match", tag}}).status, 200);
+  EXPECT_EQ(scene(src, tgt, {{"refine", "none"}}, {{"if-none-match", tag}}).status, 200);
   shapes->change(tgt, {.name = "new", .tags = {}}, {});
   EXPECT_EQ(scene(src, tgt, {}, {{"if-none-match", tag}}).status, 200);
 }

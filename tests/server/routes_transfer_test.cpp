@@ -100,12 +100,13 @@ TEST_F(RoutesTransfer, TheMatchIsComputedOnceAndItsParametersCount) {
   EXPECT_EQ(engine.matches, 1);
   transfer(body, {{"cache", "no"}});
   transfer(body, {{"method", "paper"}});
+  transfer(body, {{"refine", "none"}});
   transfer(body, {{"orientation", "any"}});
   transfer(body, {{"hints", "0:1"}});
-  EXPECT_EQ(engine.matches, 5);
+  EXPECT_EQ(engine.matches, 6);
   for (const auto& [name, value] :
-       {std::pair("interp", "cubic"), std::pair("method", "x"), std::pair("orientation", "x"), std::pair("cache", "x"),
-        std::pair("hints", "x"), std::pair("wait", "x"), std::pair("both", "yes"), std::pair("format", "npy")}) {
+       {std::pair("interp", "cubic"), std::pair("method", "x"), std::pair("refine", "x"), std::pair("orientation", "x"),
+        std::pair("cache", "x"), std::pair("hints", "x"), std::pair("wait", "x"), std::pair("both", "yes"), std::pair("format", "npy")}) {
     EXPECT_EQ(problem_code(transfer(body, {{name, value}})), api::Code::invalid_parameter) << name;
   }
 }

@@ -153,14 +153,15 @@ class Client:
 
     # Matches
 
-    def match(self, source, target, both=False, orientation=None, hints=None, method=None, cache=None, candidate=None):
-        """The map from source to target. `hints` are pairs (source vertex, target vertex). `candidate` 1 asks for the next best map."""
-        return Match(meshes.load(self.match_file(source, target, 'npz', both, orientation, hints, method, cache, candidate)))
+    def match(self, source, target, both=False, orientation=None, hints=None, method=None, cache=None, candidate=None, refine=None):
+        """The map from source to target. `hints` are pairs (source vertex, target vertex). `candidate` 1 asks for the next best map, `refine`
+        'none' for that of the optical flow alone."""
+        return Match(meshes.load(self.match_file(source, target, 'npz', both, orientation, hints, method, cache, candidate, refine)))
 
-    def match_file(self, source, target, format, both=False, orientation=None, hints=None, method=None, cache=None, candidate=None):
+    def match_file(self, source, target, format, both=False, orientation=None, hints=None, method=None, cache=None, candidate=None, refine=None):
         """The same as the bytes of a file: npz, npy, txt, ply, glb, obj, png or json."""
         query = {'src': _id(source), 'tgt': _id(target), 'format': format, 'both': 'yes' if both else None, 'orientation': orientation,
-                 'hints': _hints(hints), 'method': method, 'cache': cache, 'candidate': candidate, 'wait': _LONGEST_WAIT}
+                 'hints': _hints(hints), 'method': method, 'cache': cache, 'candidate': candidate, 'refine': refine, 'wait': _LONGEST_WAIT}
         return self._http.request('GET', '/match', query, extra_time=_LONGEST_WAIT)[2]
 
     def match_info(self, source, target, **options):
@@ -168,13 +169,13 @@ class Client:
         query = {'src': _id(source), 'tgt': _id(target), 'fields': '', 'wait': _LONGEST_WAIT, **options}
         return self._http.json('GET', '/match', query, extra_time=_LONGEST_WAIT)
 
-    def symmetry(self, shape, hints=None, method=None, cache=None, candidate=None):
+    def symmetry(self, shape, hints=None, method=None, cache=None, candidate=None, refine=None):
         """The intrinsic bilateral symmetry of a shape, a map to itself. `hints` are pairs of vertices that mirror each other."""
-        return Match(meshes.load(self.symmetry_file(shape, 'npz', hints, method, cache, candidate)))
+        return Match(meshes.load(self.symmetry_file(shape, 'npz', hints, method, cache, candidate, refine)))
 
-    def symmetry_file(self, shape, format, hints=None, method=None, cache=None, candidate=None):
+    def symmetry_file(self, shape, format, hints=None, method=None, cache=None, candidate=None, refine=None):
         """The same as the bytes of a file: npz, npy, txt, ply, glb, obj, png or json."""
-        query = {'format': format, 'hints': _hints(hints), 'method': method, 'cache': cache, 'candidate': candidate, 'wait': _LONGEST_WAIT}
+        query = {'format': format, 'hints': _hints(hints), 'method': method, 'cache': cache, 'candidate': candidate, 'refine': refine, 'wait': _LONGEST_WAIT}
         return self._http.request('GET', f'/shapes/{_id(shape)}/symmetry', query, extra_time=_LONGEST_WAIT)[2]
 
     def symmetry_info(self, shape, **options):
@@ -182,10 +183,10 @@ class Client:
         query = {'fields': '', 'wait': _LONGEST_WAIT, **options}
         return self._http.json('GET', f'/shapes/{_id(shape)}/symmetry', query, extra_time=_LONGEST_WAIT)
 
-    def match_points(self, source, target, points=None, landmarks=None, orientation=None, hints=None, method=None):
+    def match_points(self, source, target, points=None, landmarks=None, orientation=None, hints=None, method=None, refine=None):
         """The images of points, a list, or of landmarks, by name. A point is a vertex number, {'corners', 'bary'} or {'position'}."""
         body = {'src': _id(source), 'tgt': _id(target), 'points': points, 'landmarks': landmarks, 'orientation': orientation,
-                'hints': hints, 'method': method}
+                'hints': hints, 'method': method, 'refine': refine}
         body = {name: value for name, value in body.items() if value is not None}
         answer = self._http.json('POST', '/match', {'wait': _LONGEST_WAIT}, body, extra_time=_LONGEST_WAIT)
         return answer['points'] if landmarks is None else answer['landmarks'] if points is None else answer
@@ -193,7 +194,8 @@ class Client:
     def evaluate(self, source, target, truth=None, landmarks=None, mirrored=None, **options):
         """How good the match is, as a dict; docs/evaluation.md explains the figures. What is known: `truth`, 'identity' or one target
         vertex for each source vertex (-1 where unknown), or `landmarks`, two lists of vertices that belong together, with `mirrored`, the
-        second list with left and right exchanged. Options are base, both, biharmonic, orientation, hints, method, candidate."""
+        second list with left and right exchanged. Options are base, both, biharmonic, orientation, hints, method, refine,
+        candidate."""
         return json.loads(self._evaluation('json', source, target, truth, landmarks, mirrored, options))
 
     def evaluation_picture(self, source, target, truth=None, landmarks=None, mirrored=None, **options):
@@ -224,10 +226,11 @@ class Client:
 
     # Jobs
 
-    def match_many(self, pairs, fields='vertex', both=False, orientation=None, method=None):
+    def match_many(self, pairs, fields='vertex', both=False, orientation=None, method=None, refine=None):
         """Starts a job for up to 1000 pairs (source, target); read it with results()."""
         body = {'pairs': [[_id(source), _id(target)] for source, target in pairs], 'fields': fields, 'both': both}
-        body.update({name: value for name, value in (('orientation', orientation), ('method', method)) if value is not None})
+        options = {'orientation': orientation, 'method': method, 'refine': refine}
+        body.update({name: value for name, value in options.items() if value is not None})
         return Job(self._http.json('POST', '/match', body=body, idempotent=False))
 
     def results(self, job, after=0):
