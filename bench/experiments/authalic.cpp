@@ -80,8 +80,8 @@ void run_authalic(const ExperimentSettings& settings, const std::vector<int>& st
     std::printf("\n");
     std::fflush(stdout);
   }
-  write_text(settings.out, "authalic.json", to_json(rows, settings).dump(1) + "\n");
-  write_text(settings.out, "authalic.svg", picture(rows, variants));
+  write_text(settings.out + "/authalic.json", to_json(rows, settings).dump(1) + "\n");
+  write_text(settings.out + "/authalic.svg", picture(rows, variants));
 }
 
 }  // namespace spherematch::bench

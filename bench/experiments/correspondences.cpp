@@ -65,10 +65,10 @@ void run_correspondences(const ExperimentSettings& settings) {
   }
   std::puts("all classes");
   print(all);
-  write_text(settings.out, "correspondences.json", to_json("correspondences", settings, all).dump(1) + "\n");
-  write_text(settings.out, "correspondences-biharmonic.svg",
+  write_text(settings.out + "/correspondences.json", to_json("correspondences", settings, all).dump(1) + "\n");
+  write_text(settings.out + "/correspondences-biharmonic.svg",
              curves_svg("Pairs within a class", "biharmonic distance to the truth, at unit area", all, &Evaluation::biharmonic));
-  write_text(settings.out, "correspondences-geodesic.svg",
+  write_text(settings.out + "/correspondences-geodesic.svg",
              curves_svg("Pairs within a class", "geodesic distance to the truth, at unit area", all, &Evaluation::geodesic));
 }
 

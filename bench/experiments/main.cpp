@@ -1,4 +1,4 @@
-// spherematch-experiments: repeats the paper's measurements of its maps.
+// spherematch-experiments: repeats the paper's measurements of its maps, and shows what each part of a match contributes.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -15,6 +15,7 @@ namespace {
 
 struct Options {
   ExperimentSettings settings;
+  AblationSettings ablation;
   std::vector<int> steps{0, 5, 10, 20, 30, 50, 75, 100};
 };
 
@@ -28,16 +29,33 @@ void describe(CLI::App& command, ExperimentSettings& settings, const char* place
   command.add_option("--out", settings.out, "Folder for the results; made where missing")->capture_default_str();
 }
 
+void describe(CLI::App& command, AblationSettings& settings) {
+  command.add_option("PAIRS", settings.pairs, "List of pairs, of the form of samples/pairs.json")->capture_default_str();
+  command.add_option("--data", settings.data, "Folder with a folder of meshes and landmark lists for each set")->capture_default_str();
+  command.add_option("--store", settings.store, "Store of prepared shapes; made where missing")->capture_default_str();
+  command.add_option("--json", settings.json, "File for the results");
+  command.add_option("--most-pairs", settings.most_pairs, "The first ones of each set; 0 for all")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command.add_option("--runs", settings.runs, "Of each match, of which the median time is taken")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command.add_flag("--paper", settings.paper, "Also the paper's method, which takes its time");
+  command.add_option("--threads", settings.threads, "Threads to compute with")->check(CLI::Range(1, 256))->capture_default_str();
+}
+
 int main_of(int argc, const char* const* argv) {
-  CLI::App app("Repeats the measurements of section 5 of the paper on given shapes.", "spherematch-experiments");
+  CLI::App app("Repeats the measurements of section 5 of the paper on given shapes, and others.", "spherematch-experiments");
   app.require_subcommand(1);
   Options options;
   ExperimentSettings& settings = options.settings;
-  settings.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  settings.threads = options.ablation.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   CLI::App& correspondences =
       *app.add_subcommand("correspondences", "Figure 6, left: distances to the truth over all pairs within a class");
   CLI::App& symmetry = *app.add_subcommand("symmetry", "Figure 6, right: each shape against its mirror image");
   CLI::App& authalic = *app.add_subcommand("authalic", "The inset of section 5.1: D(S, T) against the number of authalic steps");
+  CLI::App& ablation = *app.add_subcommand("ablation", "What each part of a match contributes: without it, errors and times");
+  describe(ablation, options.ablation);
   for (CLI::App* command : {&correspondences, &symmetry}) {
     describe(*command, settings, "Folders of OFF files, or files");
     command->add_flag("--whole-folders", settings.whole_folders, "A folder is a class, whatever the names of its files");
@@ -54,6 +72,10 @@ int main_of(int argc, const char* const* argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (ablation.parsed()) {
+    run_ablation(options.ablation);
+    return 0;
   }
   std::filesystem::create_directories(settings.out);
   if (correspondences.parsed()) run_correspondences(settings);

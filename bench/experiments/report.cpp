@@ -98,8 +98,7 @@ void print(const std::vector<VariantResults>& results) {
   }
 }
 
-void write_text(const std::string& folder, const std::string& name, const std::string& text) {
-  const std::string file = folder + "/" + name;
+void write_text(const std::string& file, const std::string& text) {
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
   out << text;
   out.close();

@@ -45,6 +45,6 @@ using ErrorMember = std::optional<MapError> Evaluation::*;
 void print(const std::vector<VariantResults>& results);
 
 /// @throws std::runtime_error naming the file
-void write_text(const std::string& folder, const std::string& name, const std::string& text);
+void write_text(const std::string& file, const std::string& text);
 
 }  // namespace spherematch::bench

@@ -78,23 +78,29 @@ std::optional<std::vector<Landmark>> listed_symmetry(const fs::path& file) {
   return paired(list_in(beside(file, ".vts")), list_in(beside(file, ".sym.vts")));
 }
 
+std::vector<std::int32_t> vertices_drawn_by_area(const Surface& surface, int count) {
+  const Eigen::VectorXd areas = vertex_areas(surface.mesh.vertices, surface.mesh.faces);
+  // Weights of uploaded vertices; those that share a place, or were dropped, do not matter here.
+  std::vector<double> weights;
+  for (const std::int32_t vertex : surface.surface_vertex) weights.push_back(vertex < 0 ? 0 : areas[vertex]);
+  std::mt19937_64 generator(1);
+  std::discrete_distribution<std::int32_t> draw(weights.begin(), weights.end());
+  std::vector<std::int32_t> drawn;
+  for (int i = 0; i < count; ++i) drawn.push_back(draw(generator));
+  return drawn;
+}
+
 std::optional<std::vector<Landmark>> extrinsic_symmetry(const Surface& surface, int count) {
   const TriMesh& mesh = surface.mesh;
   const Eigen::VectorXd areas = vertex_areas(mesh.vertices, mesh.faces);
   const double middle = mesh.vertices.col(0).dot(areas) / areas.sum();
-  // Weights of uploaded vertices; those that share a place, or were dropped, do not matter here.
-  std::vector<double> weights;
-  for (const std::int32_t vertex : surface.surface_vertex) weights.push_back(vertex < 0 ? 0 : areas[vertex]);
   std::vector<std::int32_t> uploaded(static_cast<std::size_t>(mesh.vertex_count()), -1);
   for (std::size_t v = 0; v < surface.surface_vertex.size(); ++v) {
     if (surface.surface_vertex[v] >= 0) uploaded[static_cast<std::size_t>(surface.surface_vertex[v])] = static_cast<std::int32_t>(v);
   }
-  std::mt19937_64 generator(1);
-  std::discrete_distribution<std::int32_t> draw(weights.begin(), weights.end());
   std::vector<Landmark> pairs;
   double misses = 0;
-  while (static_cast<int>(pairs.size()) < count) {
-    const std::int32_t vertex = draw(generator);
+  for (const std::int32_t vertex : vertices_drawn_by_area(surface, count)) {
     Eigen::RowVector3d image = mesh.vertices.row(surface.surface_vertex[static_cast<std::size_t>(vertex)]);
     image[0] = 2 * middle - image[0];
     double nearest = std::numeric_limits<double>::infinity();

@@ -27,6 +27,9 @@ using ShapeClasses = std::map<std::string, std::vector<std::filesystem::path>>;
 [[nodiscard]] std::optional<GroundTruth> truth_between(const std::filesystem::path& source, const std::filesystem::path& target,
                                                        const Surface& source_surface, const Surface& target_surface);
 
+/// Of those that are part of the surface, with a fixed seed; a vertex may occur again.
+[[nodiscard]] std::vector<std::int32_t> vertices_drawn_by_area(const Surface& surface, int count);
+
 /// Vertices and their mirror images on the same shape, by NAME.vts and NAME.sym.vts; nothing without them.
 [[nodiscard]] std::optional<std::vector<Landmark>> listed_symmetry(const std::filesystem::path& file);
 

@@ -68,8 +68,8 @@ void run_symmetry(const ExperimentSettings& settings) {
   }
   std::puts("all shapes");
   print(all);
-  write_text(settings.out, "symmetry.json", to_json("symmetry", settings, all).dump(1) + "\n");
-  write_text(settings.out, "symmetry-geodesic.svg",
+  write_text(settings.out + "/symmetry.json", to_json("symmetry", settings, all).dump(1) + "\n");
+  write_text(settings.out + "/symmetry-geodesic.svg",
              curves_svg("Intrinsic mirror images", "geodesic distance to the truth, at unit area", all, &Evaluation::geodesic));
 }
 

@@ -44,4 +44,24 @@ std::vector<Variant> variants_named(const std::vector<std::string>& names) {
   return chosen;
 }
 
+std::vector<Variant> ablation_variants(bool paper) {
+  std::vector<Variant> all{{"default", {}}};
+  const auto add = [&all](const char* name, auto member, auto value) {
+    MatchParameters parameters;
+    parameters.*member = value;
+    all.push_back({name, parameters});
+  };
+  using P = MatchParameters;
+  add("no elastic flow", &P::elastic_iterations, std::vector<int>{});
+  add("elastic: coarse level only", &P::elastic_iterations, std::vector<int>{P{}.elastic_iterations.front()});
+  add("elastic: no signals", &P::elastic_signals, 0.0);
+  add("elastic: changes of area free", &P::elastic_area, 0.01);
+  add("elastic: no yielding", &P::elastic_yield, 1000.0);
+  add("flow: no detail", &P::flow_detail, 0.0);
+  add("one candidate followed", &P::fine_candidates, 1);
+  all.push_back({"rotation alone", without_flow({})});
+  if (paper) all.push_back({"method=paper", MatchParameters::paper()});
+  return all;
+}
+
 }  // namespace spherematch::bench

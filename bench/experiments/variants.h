@@ -20,4 +20,7 @@ struct Variant {
 /// Of these names, in this order. @throws std::runtime_error naming what there is
 [[nodiscard]] std::vector<Variant> variants_named(const std::vector<std::string>& names);
 
+/// The defaults, then with one part each changed or left out; last, where asked for, the paper's method.
+[[nodiscard]] std::vector<Variant> ablation_variants(bool paper);
+
 }  // namespace spherematch::bench

@@ -60,6 +60,33 @@ class Experiments(unittest.TestCase):
         self.assertGreater(file["rows"][0]["area_distortion"], file["rows"][1]["area_distortion"])
         self.assertIn("<polyline", (self.out / "authalic.svg").read_text())
 
+    def test_ablation(self):
+        pairs, folder, file = self.place / "pairs.json", self.place / "hounds", self.place / "ablation.json"
+        folder.mkdir()
+        for name in ("a", "b"):
+            (folder / f"{name}.off").write_text(self.small.read_text())
+            (folder / f"{name}.vts").write_text("1\n100\n200\n")
+            (folder / f"{name}.sym.vts").write_text("2\n300\n400\n")
+        listed = [{"set": "hounds", "src": "a", "tgt": "b", "truth": truth} for truth in ("vts", "identity", "identity")]
+        pairs.write_text(json.dumps({"pairs": listed}))
+        ablation = ("ablation", pairs, "--data", self.place, "--store", self.place / "shapes.db", "--json", file)
+        table = run(PROGRAM, *ablation, "--most-pairs", 2).stdout
+        found = json.loads(file.read_text())["sets"]
+        self.assertEqual([part["name"] for part in found], ["hounds"])
+        names = [variant["name"] for variant in found[0]["variants"]]
+        self.assertEqual(len(names), 9)
+        self.assertEqual((names[0], names[-1]), ("default", "rotation alone"))
+        for variant in found[0]["variants"]:
+            self.assertIn(variant["name"], table)
+            self.assertEqual((len(variant["pairs"]), variant["flipped"]), (2, 0))
+            self.assertLess(variant["error"], 0.05)  # of a shape with itself
+            self.assertLessEqual(variant["error"], variant["worst"])
+            self.assertGreater(variant["seconds"], 0)
+        (folder / "b.vts").unlink()
+        done = run(PROGRAM, *ablation, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("landmarks beside", done.stderr)
+
     def test_failures_have_a_message_and_a_code(self):
         for code, message, arguments in ((1, "no class", ["correspondences", self.small]), (1, "no variant", ["symmetry", self.small, "--variants", "x"]),
                                          (1, "two meshes", ["authalic", self.small]), (1, "cannot be read", ["symmetry", self.place / "no.off"]),

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
+#include "bench/experiments/pair_list.h"
 #include "bench/experiments/report.h"
 #include "bench/experiments/shape_classes.h"
 #include "bench/experiments/variants.h"
@@ -65,6 +67,40 @@ TEST_F(ShapeFolder, LandmarksComeBeforeTheIdentity) {
   EXPECT_EQ(listed_symmetry(c).value().at(0).target, 6);
 }
 
+TEST_F(ShapeFolder, PairsOfAListComeBySet) {
+  write("pairs.json",
+        R"({"pairs": [{"set": "x", "src": "a", "tgt": "b", "truth": "vts"}, {"set": "y", "src": "a", "tgt": "c", "truth": "identity"},
+                         {"set": "x", "src": "b", "tgt": "a", "truth": "vts", "reference": {}}]})");
+  const std::vector<PairSet> sets = read_pair_list(place / "pairs.json", place);
+  ASSERT_EQ(sets.size(), 2U);
+  EXPECT_EQ(sets[0].name, "x");
+  ASSERT_EQ(sets[0].pairs.size(), 2U);
+  EXPECT_EQ(sets[0].pairs[1].source, place / "x" / "b.off");
+  EXPECT_FALSE(sets[0].pairs[1].identity);
+  EXPECT_TRUE(sets[1].pairs.at(0).identity);
+  for (const char* wrong :
+       {"", "[]", R"({"pairs": [{"set": "x", "src": "a", "tgt": "b", "truth": "x"}]})", R"({"pairs": [{"set": "x"}]})"}) {
+    write("wrong.json", wrong);
+    EXPECT_THROW((void)read_pair_list(place / "wrong.json", place), std::runtime_error) << wrong;
+  }
+  EXPECT_THROW((void)read_pair_list(place / "none.json", place), std::runtime_error);
+}
+
+TEST_F(ShapeFolder, TheTruthOfAPairIsWhatItsListSays) {
+  write_mesh("a.off", test::icosphere(2));
+  write_mesh("b.off", test::icosphere(2));
+  const ListedPair identity{place / "a.off", place / "b.off", true}, listed{place / "a.off", place / "b.off", false};
+  const Surface surface = read_shape(identity.source);
+  const GroundTruth drawn = truth_of(identity, surface, surface);
+  EXPECT_EQ(drawn.direct.size(), 500U);
+  for (const Landmark& landmark : drawn.direct) EXPECT_EQ(landmark.source, landmark.target);
+  EXPECT_EQ(vertices_drawn_by_area(surface, 500), vertices_drawn_by_area(surface, 500));
+  EXPECT_THROW((void)truth_of(listed, surface, surface), std::runtime_error);
+  write("a.vts", "1\n");
+  write("b.vts", "2\n");
+  EXPECT_EQ(truth_of(listed, surface, surface).direct.at(0).target, 1);
+}
+
 TEST(ExtrinsicSymmetry, IsFoundInTheYzPlaneAlone) {
   const auto surface = [](const TriMesh& mesh) { return repair(test::polygons(mesh), RepairMode::fill); };
   const TriMesh lens = test::transformed(test::ellipsoid(3, {1, 2, 3}), 1, Eigen::Matrix3d::Identity(), {7, 0, 0});
@@ -85,6 +121,20 @@ TEST(Variants, AreThereUnderTheirNames) {
   EXPECT_EQ(chosen.at(1).parameters.flow_iterations, 0);
   EXPECT_THROW((void)variants_named({"other"}), std::runtime_error);
   for (const Variant& variant : variants()) variant.parameters.validate();
+}
+
+TEST(Variants, AnAblationChangesOnePartAtATime) {
+  const std::vector<Variant> some = ablation_variants(false), all = ablation_variants(true);
+  EXPECT_EQ(all.size(), some.size() + 1);
+  EXPECT_TRUE(all.back().parameters.paper_selection);
+  EXPECT_EQ(some.front().name, "default");
+  std::set<std::string> names;
+  for (const Variant& variant : all) {
+    variant.parameters.validate();
+    EXPECT_TRUE(names.insert(variant.name).second) << variant.name;
+  }
+  EXPECT_TRUE(variants_named({"flow"}).at(0).parameters.elastic_iterations.empty());
+  EXPECT_TRUE(variants_named({"rotation"}).at(0).parameters.elastic_iterations.empty());
 }
 
 TEST(Report, EveryPairCountsAlike) {
