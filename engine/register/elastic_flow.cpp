@@ -18,6 +18,7 @@ constexpr double kInertia = 1e-3;
 
 /// Of the squared distance of two points that belong together, against the mean of squared strains over the whole surface.
 constexpr double kPairWeight = 10;
+constexpr double kFarPair = 0.5;    ///< chord beyond which a pair draws less and less: it may be wrong
 constexpr double kPairReach = 0.3;  ///< radians round a pair in which nodes are drawn along
 
 /// Of the equations' residual. At 0.03 what is smooth is left over, and errors are larger by 2 percent.
@@ -158,7 +159,7 @@ class ElasticSystem {
                 const std::vector<TangentFrame>& frames) {
     const Eigen::VectorXd near = (1 - (places * point).array()).cwiseMax(0);  // half of the square of the distance
     const Eigen::VectorXd shares = (1 - 2 * near.array() / (kPairReach * kPairReach)).cwiseMax(0).square();
-    const double sum = shares.sum();
+    const double sum = shares.sum() * (1 + std::pow(wanted.norm() / kFarPair, 4));
     if (!(sum > 0)) return;
     for (Eigen::Index i = 0; i < shares.size(); ++i) {
       if (shares[i] == 0) continue;
