@@ -137,11 +137,11 @@ std::vector<CandidateSummary> summarize_all(const std::vector<Attempt>& attempts
   return summaries;
 }
 
-double runner_up_score(const std::vector<CandidateSummary>& candidates) {
-  double runner_up = 0;
-  for (const CandidateSummary& candidate : candidates)
-    if (!candidate.chosen && (runner_up == 0 || candidate.score < runner_up)) runner_up = candidate.score;
-  return runner_up;
+/// The lowest score of another finished registration, zero where there is none. The others' scores are of the coarse flow alone.
+double runner_up_score(const std::vector<Choice>& ranked, const Choice& chosen) {
+  for (const Choice& choice : ranked)
+    if (choice.registration != chosen.registration) return choice.registration->score;
+  return 0;
 }
 
 struct HalfMap {
@@ -233,7 +233,7 @@ MatchResult register_pair(const MatchShape& source, const MatchShape& target, co
   }
   if (!parameters.elastic_iterations.empty()) result.quality.emplace_back("strain", std::sqrt(registration.elastic.strain));
   result.quality.emplace_back("score", registration.score);
-  result.quality.emplace_back("score_runner_up", runner_up_score(result.candidates));
+  result.quality.emplace_back("score_runner_up", runner_up_score(ranked, chosen));
   result.quality.emplace_back("ambiguous", ambiguous(ranked) ? 1 : 0);
   result.seconds.emplace_back("correspondence", watch.lap());
   result.seconds.emplace_back("total", total.lap());
