@@ -23,6 +23,12 @@ Json bary_json(const std::vector<std::array<float, 3>>& rows) {
   return json;
 }
 
+Json numbers_json(const std::vector<float>& values) {
+  Json json = Json::array();
+  for (const float value : values) json.push_back(shortest(value));
+  return json;
+}
+
 Json to_json(const Candidate& value) {
   return {{"rotation", value.rotation}, {"correlation", value.correlation}, {"score", value.score}, {"chosen", value.chosen}};
 }
@@ -60,12 +66,21 @@ std::vector<std::array<float, 3>> read_bary(const Json& value, const std::string
   return result;
 }
 
+std::vector<float> read_numbers(const Json& value, const std::string& path, std::int64_t n_src) {
+  const Json& array = array_at(value, path, static_cast<std::size_t>(n_src));
+  std::vector<float> result(array.size());
+  for (std::size_t i = 0; i < array.size(); ++i) result[i] = static_cast<float>(number_at(array[i], element_path(path, i)));
+  return result;
+}
+
 /// The arrays that a map, forward or reverse, has been asked for.
 template <typename Map>
 void write_arrays(Json& json, const Map& map) {
   if (map.vertex) json["vertex"] = *map.vertex;
   if (map.corners) json["corners"] = *map.corners;
   if (map.bary) json["bary"] = bary_json(*map.bary);
+  if (map.confidence) json["confidence"] = numbers_json(*map.confidence);
+  if (map.distortion) json["distortion"] = numbers_json(*map.distortion);
 }
 
 template <typename Map>
@@ -73,6 +88,8 @@ void read_arrays(ObjectReader& reader, Map& map) {
   if (reader.has("vertex")) map.vertex = read_vertex(reader.member("vertex"), reader.path_of("vertex"), map.n_src, map.n_tgt);
   if (reader.has("corners")) map.corners = read_corners(reader.member("corners"), reader.path_of("corners"), map.n_src, map.n_tgt);
   if (reader.has("bary")) map.bary = read_bary(reader.member("bary"), reader.path_of("bary"), map.n_src);
+  if (reader.has("confidence")) map.confidence = read_numbers(reader.member("confidence"), reader.path_of("confidence"), map.n_src);
+  if (reader.has("distortion")) map.distortion = read_numbers(reader.member("distortion"), reader.path_of("distortion"), map.n_src);
 }
 
 ReverseMap read_reverse(const Json& value, const std::string& path) {

@@ -129,6 +129,8 @@ struct ReverseMap {
   std::optional<std::vector<std::int32_t>> vertex;
   std::optional<std::vector<std::array<std::int32_t, 3>>> corners;
   std::optional<std::vector<std::array<float, 3>>> bary;
+  std::optional<std::vector<float>> confidence;
+  std::optional<std::vector<float>> distortion;
   bool operator==(const ReverseMap&) const = default;
 };
 
@@ -140,6 +142,8 @@ struct Match {
   std::optional<std::vector<std::int32_t>> vertex;                  ///< n_src, if asked for
   std::optional<std::vector<std::array<std::int32_t, 3>>> corners;  ///< n_src, if asked for
   std::optional<std::vector<std::array<float, 3>>> bary;            ///< n_src, if asked for
+  std::optional<std::vector<float>> confidence;                     ///< n_src, 0 to 1, if asked for
+  std::optional<std::vector<float>> distortion;                     ///< n_src, 0 for an isometry, if asked for
   std::optional<ReverseMap> reverse;                                ///< if asked for
   std::string orientation = "preserve";                             ///< or "reverse": the mirror image of src was matched
   std::int32_t candidate = 0;                                       ///< 0: of the best rotation, 1: of the next best

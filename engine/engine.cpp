@@ -103,10 +103,13 @@ std::vector<SignalGrid> signal_grids(const PreprocessedShape& shape, const TriMe
   for (const std::string& name : selection_signal_names()) names.push_back(name);
   for (const char* name : position_signal_names) names.emplace_back(name);
   names.emplace_back(curvature_signal_name);
+  const std::vector<std::string> eigenfunctions = eigenfunction_names(shape.eigenvalues.size());
+  names.insert(names.end(), eigenfunctions.begin(), eigenfunctions.end());
   Eigen::MatrixXd signatures(shape.sphere.rows(), static_cast<Eigen::Index>(names.size()));
   signatures << heat_kernel_signatures(shape.eigenvalues, shape.eigenvectors, parameters.hks_times),
       selection_signals(shape.eigenvalues, shape.eigenvectors), mesh.vertices,
-      smoothed_mean_curvature(mesh, shape.eigenvalues, shape.eigenvectors, kCurvatureTime);
+      smoothed_mean_curvature(mesh, shape.eigenvalues, shape.eigenvectors, kCurvatureTime),
+      shape.eigenvectors.middleCols(1, static_cast<Eigen::Index>(eigenfunctions.size())).cast<double>();
   const std::vector<Grid> grids = rasterize_signals(shape.sphere, mesh.faces, signatures, parameters.signal_resolution);
   std::vector<SignalGrid> result;
   for (std::size_t i = 0; i < grids.size(); ++i) result.push_back({names[i], grids[i].matrix().cast<float>()});
@@ -115,7 +118,7 @@ std::vector<SignalGrid> signal_grids(const PreprocessedShape& shape, const TriMe
 
 }  // namespace
 
-std::string_view engine_version() { return "6"; }
+std::string_view engine_version() { return "7"; }
 
 Surface read_surface(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options, const ReadLimits& limits) {
   options.validate();

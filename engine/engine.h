@@ -12,6 +12,7 @@
 #include "engine/data/preprocessed_shape.h"
 #include "engine/data/progress.h"
 #include "engine/data/surface.h"
+#include "engine/evaluate/vertex_quality.h"  // confidence and distortion of a map at its vertices
 #include "engine/register/match_shape.h"
 #include "engine/register/point_images.h"  // where chosen points of the source lie on the target
 

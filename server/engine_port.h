@@ -44,6 +44,8 @@ class EnginePort {
   /// `reverse` may be null.
   [[nodiscard]] virtual Evaluation evaluate(const PreprocessedShape& source, const PreprocessedShape& target, const Correspondence& map,
                                             const Correspondence* reverse, const GroundTruth& truth, const Progress& progress) const = 0;
+  [[nodiscard]] virtual VertexQuality vertex_quality(const ShapePointer& source, const ShapePointer& target,
+                                                     const Correspondence& map) const = 0;
 };
 
 }  // namespace spherematch

@@ -241,8 +241,10 @@ api::PairResult MatchJobs::result_of(const JobPair& pair, const MatchJobOptions&
     const MatchQuery query{pair.source, pair.target, options.parameters};
     const api::Shape target = shapes_.get(pair.target);
     shapes_.require_known(pair.source);
+    MatchedShapes shapes;
+    if (options.fields.quality()) shapes = {shapes_.load(pair.source), shapes_.load(pair.target)};
     line.match = match_of(query, matches_.get(query, MatchService::Cache::use, MatchService::Urgency::background), options.fields,
-                          target.vertices, matches_.engine_version());
+                          target.vertices, matches_.engine(), shapes);
   } catch (...) {
     const api::Problem problem = problem_of(std::current_exception()).problem();
     fail(problem.code, problem.detail);

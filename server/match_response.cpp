@@ -21,6 +21,15 @@ void select(Map& to, const Correspondence& from, const MatchFields& fields) {
   if (fields.bary) to.bary = rows_of<float>(from.bary);
 }
 
+template <typename Map>
+void add_quality(Map& to, const Correspondence& from, const MatchFields& fields, const EnginePort& engine, const ShapePointer& source,
+                 const ShapePointer& target) {
+  if (!fields.quality()) return;
+  VertexQuality quality = engine.vertex_quality(source, target, from);
+  if (fields.confidence) to.confidence = std::move(quality.confidence);
+  if (fields.distortion) to.distortion = std::move(quality.distortion);
+}
+
 }  // namespace
 
 MatchFields parse_fields(std::string_view text) {
@@ -35,20 +44,25 @@ MatchFields parse_fields(std::string_view text) {
       fields.corners = true;
     } else if (name == "bary") {
       fields.bary = true;
+    } else if (name == "confidence") {
+      fields.confidence = true;
+    } else if (name == "distortion") {
+      fields.distortion = true;
     } else {
       throw ProblemError(api::Code::invalid_parameter,
-                         "fields: '" + std::string(name.substr(0, 64)) + "' is not one of vertex, corners, bary");
+                         "fields: '" + std::string(name.substr(0, 64)) + "' is not one of vertex, corners, bary, confidence, distortion");
     }
   }
   return fields;
 }
 
 std::string canonical(const MatchFields& fields) {
-  return std::string(fields.vertex ? "vertex," : "") + (fields.corners ? "corners," : "") + (fields.bary ? "bary" : "");
+  return std::string(fields.vertex ? "vertex," : "") + (fields.corners ? "corners," : "") + (fields.bary ? "bary" : "") +
+         (fields.confidence ? ",confidence" : "") + (fields.distortion ? ",distortion" : "");
 }
 
 api::Match match_of(const MatchQuery& query, const MatchAnswer& answer, const MatchFields& fields, std::int32_t n_tgt,
-                    const std::string& engine) {
+                    const EnginePort& engine, const MatchedShapes& shapes) {
   const MatchResult& result = *answer.result;
   api::Match match;
   match.src = query.src;
@@ -56,9 +70,12 @@ api::Match match_of(const MatchQuery& query, const MatchAnswer& answer, const Ma
   match.n_src = static_cast<std::int32_t>(result.map.vertex.size());
   match.n_tgt = n_tgt;
   select(match, result.map, fields);
+  add_quality(match, result.map, fields, engine, shapes.source, shapes.target);
   if (query.parameters.both) {
-    match.reverse = api::ReverseMap{.n_src = n_tgt, .n_tgt = match.n_src, .vertex = {}, .corners = {}, .bary = {}};
+    match.reverse =
+        api::ReverseMap{.n_src = n_tgt, .n_tgt = match.n_src, .vertex = {}, .corners = {}, .bary = {}, .confidence = {}, .distortion = {}};
     select(*match.reverse, result.reverse, fields);
+    add_quality(*match.reverse, result.reverse, fields, engine, shapes.target, shapes.source);
   }
   match.orientation = result.reversed ? "reverse" : "preserve";
   match.candidate = query.parameters.candidate;
@@ -68,7 +85,7 @@ api::Match match_of(const MatchQuery& query, const MatchAnswer& answer, const Ma
   }
   match.seconds = result.seconds;
   match.cached = answer.cached();
-  match.engine = engine;
+  match.engine = engine.version();
   return match;
 }
 

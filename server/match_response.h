@@ -14,6 +14,11 @@ struct MatchFields {
   bool vertex = true;
   bool corners = false;
   bool bary = false;
+  bool confidence = false;
+  bool distortion = false;
+
+  /// Whether they need what is not in a match result.
+  [[nodiscard]] bool quality() const { return confidence || distortion; }
 };
 
 /// "vertex,bary" and the like; an empty text selects none. @throws ProblemError(invalid_parameter)
@@ -22,8 +27,13 @@ struct MatchFields {
 /// The same text for the same selection, whatever its order.
 [[nodiscard]] std::string canonical(const MatchFields& fields);
 
-/// With the reverse map where the query asks for both.
+/// Both shapes of a query, where an answer needs them.
+struct MatchedShapes {
+  ShapePointer source, target;
+};
+
+/// With the reverse map where the query asks for both. Fields of quality need the shapes.
 [[nodiscard]] api::Match match_of(const MatchQuery& query, const MatchAnswer& answer, const MatchFields& fields, std::int32_t n_tgt,
-                                  const std::string& engine);
+                                  const EnginePort& engine, const MatchedShapes& shapes = {});
 
 }  // namespace spherematch

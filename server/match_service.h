@@ -70,7 +70,7 @@ class MatchService {
   /// What names a query in caches and entity tags: the same text for the same result, for one engine version.
   [[nodiscard]] std::string key_of(const MatchQuery& query) const;
 
-  [[nodiscard]] std::string engine_version() const { return engine_.version(); }
+  [[nodiscard]] const EnginePort& engine() const { return engine_; }
 
   /// Drops what is in memory of a shape that was removed, also what is still to be stored; the store does so by itself.
   void forget(const std::string& shape);

@@ -52,8 +52,9 @@ api::Json to_json(const PreprocessParameters& parameters) {
 api::Json to_json(const MatchParameters& parameters) {
   const auto& [rotation_time, rotation_bandwidth, max_candidates, candidate_separation, candidate_threshold, flow_times, flow_resolution,
                flow_iterations, flow_settled, flow_smoothness, finest_flow, flow_tolerance, flow_detail, flow_detail_from, mesh_flow,
-               elastic_iterations, elastic_area, elastic_yield, elastic_signals, elastic_longest_move, elastic_settled, fine_candidates,
-               paper_selection, orientation, hints, both, candidate] = parameters;
+               elastic_iterations, elastic_area, elastic_yield, elastic_signals, elastic_signal_yield, elastic_spectrum,
+               elastic_eigenfunctions, elastic_more_eigenfunctions, elastic_longest_move, elastic_settled, fine_candidates, paper_selection,
+               orientation, hints, both, candidate] = parameters;
   api::Json pairs = api::Json::array();
   for (const auto& [source, target] : hints) pairs.push_back({source, target});
   return {{"rotation_time", rotation_time},
@@ -75,6 +76,10 @@ api::Json to_json(const MatchParameters& parameters) {
           {"elastic_area", elastic_area},
           {"elastic_yield", elastic_yield},
           {"elastic_signals", elastic_signals},
+          {"elastic_signal_yield", elastic_signal_yield},
+          {"elastic_spectrum", elastic_spectrum},
+          {"elastic_eigenfunctions", elastic_eigenfunctions},
+          {"elastic_more_eigenfunctions", elastic_more_eigenfunctions},
           {"elastic_longest_move", elastic_longest_move},
           {"elastic_settled", elastic_settled},
           {"fine_candidates", fine_candidates},

@@ -58,4 +58,8 @@ Evaluation RealEngine::evaluate(const PreprocessedShape& source, const Preproces
       .get();
 }
 
+VertexQuality RealEngine::vertex_quality(const ShapePointer& source, const ShapePointer& target, const Correspondence& map) const {
+  return spherematch::vertex_quality(*match_shape(source), *match_shape(target), map);
+}
+
 }  // namespace spherematch

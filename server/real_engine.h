@@ -21,6 +21,8 @@ class RealEngine final : public EnginePort {
                                   const Progress& progress) const override;
   [[nodiscard]] Evaluation evaluate(const PreprocessedShape& source, const PreprocessedShape& target, const Correspondence& map,
                                     const Correspondence* reverse, const GroundTruth& truth, const Progress& progress) const override;
+  [[nodiscard]] VertexQuality vertex_quality(const ShapePointer& source, const ShapePointer& target,
+                                             const Correspondence& map) const override;
 
  private:
   [[nodiscard]] std::shared_ptr<const MatchShape> match_shape(const ShapePointer& shape) const;

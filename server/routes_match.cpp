@@ -74,16 +74,15 @@ MatchRequest parse_symmetry(const HttpRequest& from) {
 
 /// What an answer needs besides the map, read before the match: a shape that is removed meanwhile then does not spoil the end.
 struct Ingredients {
-  ShapePointer source;      ///< with the target, for formats that draw surfaces
-  ShapePointer target;      ///<
+  MatchedShapes shapes;     ///< for formats that draw surfaces, and fields of quality
   PolygonMesh source_mesh;  ///< for formats that repeat the upload
 };
 
 Ingredients gather(const ServerContext& context, const MatchRequest& request, const std::optional<MapFormat>& format) {
   Ingredients ingredients;
-  if (format && needs_surfaces(*format)) {
-    ingredients.source = context.shapes.load(request.query.src);
-    ingredients.target = context.shapes.load(request.query.tgt);
+  if (format ? needs_surfaces(*format) : request.fields.quality()) {
+    ingredients.shapes.source = context.shapes.load(request.query.src);
+    ingredients.shapes.target = context.shapes.load(request.query.tgt);
   }
   if (format && needs_source_mesh(*format)) ingredients.source_mesh = context.shapes.load_mesh(request.query.src);
   return ingredients;
@@ -93,13 +92,13 @@ std::string encode(const ServerContext& context, const MatchRequest& request, co
                    const MatchAnswer& answer, Ingredients ingredients) {
   const MatchResult& result = *answer.result;
   if (!format) {
-    const api::Match match = match_of(request.query, answer, request.fields, request.n_tgt, context.engine.version());
+    const api::Match match = match_of(request.query, answer, request.fields, request.n_tgt, context.engine, ingredients.shapes);
     return api::to_text(api::to_json(match)) + "\n";
   }
   if (*format == MapFormat::npz && request.query.parameters.both) return encode_npz(result.map, result.reverse);
   const Surface none;
-  return encode_map(*format, result.map, ingredients.source ? ingredients.source->surface : none,
-                    ingredients.target ? ingredients.target->surface : none, std::move(ingredients.source_mesh));
+  return encode_map(*format, result.map, ingredients.shapes.source ? ingredients.shapes.source->surface : none,
+                    ingredients.shapes.target ? ingredients.shapes.target->surface : none, std::move(ingredients.source_mesh));
 }
 
 HttpResponse compute(const ServerContext& context, const MatchRequest& request) {

@@ -57,6 +57,8 @@ std::vector<Variant> ablation_variants(bool paper) {
   add("elastic: no signals", &P::elastic_signals, 0.0);
   add("elastic: changes of area free", &P::elastic_area, 0.01);
   add("elastic: no yielding", &P::elastic_yield, 1000.0);
+  add("elastic: no yielding to signals", &P::elastic_signal_yield, 1e6);
+  add("elastic: no eigenfunctions", &P::elastic_spectrum, 0.0);
   add("flow: no detail", &P::flow_detail, 0.0);
   add("one candidate followed", &P::fine_candidates, 1);
   all.push_back({"rotation alone", without_flow({})});

@@ -81,4 +81,14 @@ struct Evaluation {
   StageSeconds seconds;                            ///< "errors", "continuity", "coverage", "bijectivity", "total"
 };
 
+/// What to think of a map at each vertex. Entry i is uploaded source vertex i. Both are 0 for a dropped vertex.
+struct VertexQuality {
+  /// How much the map stretches and shrinks: the square root of the mean square of the logarithms of the singular values, over the faces
+  /// round the vertex, of the map between both surfaces at unit area. 0 for an isometry, log 2 = 0.7 for twice the size; at most 3.
+  std::vector<float> distortion;
+  /// The probability that the image is right to 3 percent of the square root of the target's area, estimated from the distortion there,
+  /// that of the whole map, and how different the signals of vertex and image are. docs/method.md tells how well that goes.
+  std::vector<float> confidence;
+};
+
 }  // namespace spherematch

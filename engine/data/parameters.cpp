@@ -87,6 +87,10 @@ void MatchParameters::validate() const {
   require(elastic_area > 0 && elastic_area <= 1e6, "elastic_area", "must be above 0 and at most 1000000");
   require(positive(elastic_yield), "elastic_yield", "must be positive");
   require(elastic_signals >= 0 && elastic_signals <= 1e6, "elastic_signals", "must be 0 to 1000000");
+  require(positive(elastic_signal_yield), "elastic_signal_yield", "must be positive");
+  require(elastic_spectrum >= 0 && elastic_spectrum <= 1e6, "elastic_spectrum", "must be 0 to 1000000");
+  require(elastic_eigenfunctions >= 0 && elastic_eigenfunctions <= 1000, "elastic_eigenfunctions", "must be 0 to 1000");
+  require(elastic_more_eigenfunctions >= 0 && elastic_more_eigenfunctions <= 1000, "elastic_more_eigenfunctions", "must be 0 to 1000");
   require(positive(elastic_longest_move) && elastic_longest_move <= 1, "elastic_longest_move", "must be above 0 and at most 1");
   require(elastic_settled >= 0 && elastic_settled < 1, "elastic_settled", "must be at least 0 and below 1");
   require(candidate >= 0 && candidate < max_candidates, "candidate", "must be at least 0 and below max_candidates");

@@ -89,7 +89,11 @@ struct MatchParameters {
   std::vector<int> elastic_iterations{4, 8};  ///< at most, on icospheres of 2562, 10242, 40962 nodes; none for the optical flow alone
   double elastic_area = 1;                    ///< weight of changes of area, against that of losses of shape
   double elastic_yield = 1;                   ///< strain from which a triangle resists less and less
-  double elastic_signals = 20;                ///< weight of differences of signals
+  double elastic_signals = 25;                ///< weight of differences of signals
+  double elastic_signal_yield = 0.5;          ///< multiple of their mean square from which these resist less and less
+  double elastic_spectrum = 5;                ///< weight of differences of eigenfunctions from their functional map's; zero for none
+  int elastic_eigenfunctions = 20;            ///< how many, in the first step of a level
+  int elastic_more_eigenfunctions = 5;        ///< in each further step
   double elastic_longest_move = 0.1;          ///< radians, of a node in a step
   double elastic_settled = 0.005;             ///< radians: a level ends with the first step that would move no node farther
 

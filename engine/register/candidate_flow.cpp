@@ -27,7 +27,8 @@ constexpr double kCoarseGuide = 1.2, kFineGuide = 0.5;
 /// another in another pose. Between different shapes backs and chests differ too much to be compared.
 constexpr double kCurvatureWeight = 0.15;
 
-/// Of the mean square of strains, by whose power the signals' cost is multiplied.
+/// Of the mean square of strains, by whose power the signals' cost is multiplied. Not where a shape is matched with its mirror image:
+/// curvature then tells more, and limbs turned back to front are strained little.
 constexpr double kStrainExponent = 0.25;
 
 constexpr int kNodes = 64;  ///< resolution of the grid on which registrations are followed and compared
@@ -80,13 +81,17 @@ const NodeMesh& node_mesh(std::size_t level) {
   return fine;
 }
 
-ElasticParameters elastic_level(const MatchParameters& parameters, int iterations) {
+ElasticParameters elastic_level(const MatchParameters& parameters, std::size_t level) {
   return {.area = parameters.elastic_area,
           .yield = parameters.elastic_yield,
           .signals = parameters.elastic_signals,
+          .signal_yield = parameters.elastic_signal_yield,
+          .spectrum = parameters.elastic_spectrum,
+          .eigenfunctions = parameters.elastic_eigenfunctions,
+          .more_eigenfunctions = parameters.elastic_more_eigenfunctions,
           .longest_move = parameters.elastic_longest_move,
           .settled = parameters.elastic_settled,
-          .iterations = iterations};
+          .iterations = parameters.elastic_iterations[level]};
 }
 
 /// Mean distance of the hints where both shapes are registered, relative to the square root of the sphere's area.
@@ -94,10 +99,12 @@ double hint_distance(const Points& source, const Points& target) {
   return (source - target).rowwise().norm().mean() / std::sqrt(4 * std::numbers::pi);
 }
 
+bool is_symmetry(const Pair& pair) { return &pair.source.shape.shape() == &pair.target.shape.shape(); }
+
 /// Of the channels of PairSide::selection_channels.
 std::vector<double> selection_weights(const Pair& pair) {
   std::vector<double> weights = selection_signal_weights();
-  weights.push_back(&pair.source.shape.shape() == &pair.target.shape.shape() ? kCurvatureWeight : 0);
+  weights.push_back(is_symmetry(pair) ? kCurvatureWeight : 0);
   return weights;
 }
 
@@ -116,7 +123,8 @@ void judge_by_signals(Registration& registration, const Pair& pair, int nodes) {
 /// After the elastic flow too. It fits the signals of a wrong registration nearly as well as those of the right one, but strains the
 /// surfaces more to do so: then the strain tells, and what the signals cost before it.
 void judge_by_strain(Registration& registration, const Pair& pair) {
-  registration.score = registration.cost * std::pow(registration.elastic.strain, kStrainExponent);
+  registration.score = registration.cost;
+  if (!is_symmetry(pair)) registration.score *= std::pow(registration.strain, kStrainExponent);
   if (pair.hints.source.rows() > 0)
     registration.score += kHintWeight * hint_distance(registration.map->forward(pair.hints.source), pair.hints.target);
 }
@@ -125,8 +133,8 @@ void judge_by_strain(Registration& registration, const Pair& pair) {
 void relax(Registration& registration, const Pair& pair, std::size_t level, const Progress& progress, int threads) {
   NodeMap map(node_mesh(level), *registration.source, *registration.target);
   if (registration.map) map.follow(*registration.map);
-  registration.elastic = flow_elastically(map, *pair.source.elastic, *pair.target.elastic, pair.hints,
-                                          elastic_level(pair.parameters, pair.parameters.elastic_iterations[level]), progress, threads);
+  registration.strain = flow_elastically(map, *pair.source.elastic, *pair.target.elastic, pair.hints, elastic_level(pair.parameters, level),
+                                         progress, threads);
   registration.map.emplace(std::move(map));
 }
 
@@ -143,9 +151,10 @@ PairSide::PairSide(const MatchShape& match_shape, const MatchParameters& paramet
     selection_channels.push_back(shape.channel(curvature_signal_name));
   }
   if (!parameters.elastic_iterations.empty()) {
-    elastic.emplace(ElasticChannels{shape.signals(), {}, {}, selection_signal_weights()});
+    elastic.emplace(ElasticChannels{shape.signals(), {}, {}, selection_signal_weights(), {}});
     for (std::size_t axis = 0; axis < 3; ++axis) elastic->position[axis] = shape.channel(position_signal_names[axis]);
     for (const std::string& name : selection_signal_names()) elastic->compared.push_back(shape.channel(name));
+    elastic->eigenfunctions = shape.eigenfunctions();
   }
   if (parameters.mesh_flow) mesh = std::make_shared<const MeshSignals>(shape, parameters.flow_times);
 }

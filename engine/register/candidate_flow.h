@@ -44,7 +44,7 @@ struct Registration {
   double cost = 0;                  ///< of the signals' differences after the optical flow
   double score = 0;                 ///< lowest for the best
   std::optional<NodeMap> map = {};  ///< since the elastic flow
-  ElasticEnergy elastic = {};       ///< of its last level
+  double strain = 0;                ///< mean of squares, of the last level of the elastic flow
 };
 
 /// Every rotation's registration before the flow; with hints once as it is and once guided by them.

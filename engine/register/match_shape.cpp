@@ -5,6 +5,7 @@
 
 #include "engine/data/error.h"
 #include "engine/register/mirror.h"
+#include "engine/spectrum/signatures.h"
 
 namespace spherematch {
 namespace {
@@ -37,6 +38,13 @@ Eigen::Index MatchShape::channel(const std::string& name) const {
   if (found == signals.end())
     throw EngineError(ErrorCode::invalid_parameter, "the shape has no signal " + name + "; a time must be one at which signals are stored");
   return found - signals.begin();
+}
+
+std::vector<Eigen::Index> MatchShape::eigenfunctions() const {
+  std::vector<Eigen::Index> channels;
+  for (std::size_t i = 0; i < shape_->signals.size(); ++i)
+    if (shape_->signals[i].name.starts_with(eigenfunction_prefix)) channels.push_back(static_cast<Eigen::Index>(i));
+  return channels;
 }
 
 Grid MatchShape::signal(const std::string& name) const {

@@ -39,6 +39,8 @@ class MatchShape {
   [[nodiscard]] const GridSamples& signals() const { return signals_; }
   /// The channel of a stored signal. @throws EngineError(invalid_parameter) when no signal has the name
   [[nodiscard]] Eigen::Index channel(const std::string& name) const;
+  /// The channels of the stored eigenfunctions, by rising frequency and without the constant.
+  [[nodiscard]] std::vector<Eigen::Index> eigenfunctions() const;
   /// A stored signal. @throws as channel()
   [[nodiscard]] Grid signal(const std::string& name) const;
 

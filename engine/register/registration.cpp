@@ -231,7 +231,7 @@ MatchResult register_pair(const MatchShape& source, const MatchShape& target, co
     result.quality.emplace_back("inverse_mean", trip.mean);
     result.quality.emplace_back("inverse_largest", trip.largest);
   }
-  if (!parameters.elastic_iterations.empty()) result.quality.emplace_back("strain", std::sqrt(registration.elastic.strain));
+  if (!parameters.elastic_iterations.empty()) result.quality.emplace_back("strain", std::sqrt(registration.strain));
   result.quality.emplace_back("score", registration.score);
   result.quality.emplace_back("score_runner_up", runner_up_score(ranked, chosen));
   result.quality.emplace_back("ambiguous", ambiguous(ranked) ? 1 : 0);

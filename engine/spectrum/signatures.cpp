@@ -44,6 +44,13 @@ std::vector<double> selection_signal_weights() {
   return weights;
 }
 
+std::vector<std::string> eigenfunction_names(Eigen::Index eigenpairs) {
+  constexpr Eigen::Index kStored = 60;
+  std::vector<std::string> names;
+  for (Eigen::Index i = 1; i < eigenpairs && i <= kStored; ++i) names.push_back(eigenfunction_prefix + std::to_string(i));
+  return names;
+}
+
 Eigen::MatrixXd selection_signals(const Eigen::VectorXd& values, const Eigen::MatrixXf& vectors) {
   const Eigen::MatrixXd heat = heat_kernel_signatures(values, vectors, {0.003, 0.001}).array().max(1e-12).log();
   const Eigen::MatrixXd wave = wave_kernel_signatures(values, vectors, kEnergies).rightCols(kEnergies / 2).array().max(1e-12).log();

@@ -30,4 +30,10 @@ namespace spherematch {
 /// all wave energies together weigh alike.
 [[nodiscard]] Eigen::MatrixXd selection_signals(const Eigen::VectorXd& values, const Eigen::MatrixXf& vectors);
 
+/// What the names of eigenfunctions begin with that are stored as signals.
+inline constexpr const char* eigenfunction_prefix = "eigenfunction_";
+
+/// The names of these, by rising frequency and without the constant: of the lowest among the `eigenpairs` that there are.
+[[nodiscard]] std::vector<std::string> eigenfunction_names(Eigen::Index eigenpairs);
+
 }  // namespace spherematch

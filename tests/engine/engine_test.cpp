@@ -75,9 +75,10 @@ void expect_prepared(const PreprocessedShape& shape, const TriMesh& mesh, const 
   EXPECT_EQ(shape.eigenvalues.size(), parameters.eigenpairs);
   EXPECT_EQ(shape.eigenvectors.rows(), mesh.vertex_count());
   EXPECT_EQ(shape.engine, engine_version());
-  ASSERT_EQ(shape.signals.size(), parameters.hks_times.size() + selection_signal_names().size() + position_signal_names.size() + 1);
+  ASSERT_EQ(shape.signals.size(), parameters.hks_times.size() + selection_signal_names().size() + position_signal_names.size() + 1 +
+                                      eigenfunction_names(parameters.eigenpairs).size());
   EXPECT_EQ(shape.signals[parameters.hks_times.size() - 1].name, "hks_0.01");
-  EXPECT_EQ(shape.signals.back().name, curvature_signal_name);
+  EXPECT_EQ(shape.signals.back().name, eigenfunction_names(parameters.eigenpairs).back());
   for (const SignalGrid& signal : shape.signals) {
     EXPECT_EQ(signal.values.rows(), parameters.signal_resolution);
     EXPECT_EQ(signal.values.cols(), parameters.signal_resolution);
@@ -365,12 +366,18 @@ TEST(MatchParameters, NameTheInvalidField) {
   for (const int iterations : {0, 101})
     expect_invalid(with([&](auto& p) { p.elastic_iterations = {2, iterations}; }), "elastic_iterations");
   expect_invalid(with([&](auto& p) { p.elastic_iterations.assign(4, 1); }), "elastic_iterations");
+  for (const int count : {-1, 1001}) {
+    expect_invalid(with([&](auto& p) { p.elastic_eigenfunctions = count; }), "elastic_eigenfunctions");
+    expect_invalid(with([&](auto& p) { p.elastic_more_eigenfunctions = count; }), "elastic_more_eigenfunctions");
+  }
   expect_invalid(with([&](auto& p) { p.flow_detail_from = -1; }), "flow_detail_from");
   for (const double value : {-1.0, nan, infinity}) {
     expect_invalid(with([&](auto& p) { p.flow_detail = value; }), "flow_detail");
     expect_invalid(with([&](auto& p) { p.elastic_area = value; }), "elastic_area");
     expect_invalid(with([&](auto& p) { p.elastic_yield = value; }), "elastic_yield");
     expect_invalid(with([&](auto& p) { p.elastic_signals = value; }), "elastic_signals");
+    expect_invalid(with([&](auto& p) { p.elastic_signal_yield = value; }), "elastic_signal_yield");
+    expect_invalid(with([&](auto& p) { p.elastic_spectrum = value; }), "elastic_spectrum");
     expect_invalid(with([&](auto& p) { p.elastic_longest_move = value; }), "elastic_longest_move");
     expect_invalid(with([&](auto& p) { p.elastic_settled = value; }), "elastic_settled");
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "server/problem.h"
+#include "tests/server/stub_engine.h"
 
 namespace spherematch {
 namespace {
@@ -12,6 +13,9 @@ TEST(MatchResponse, FieldsAreParsedStrictly) {
   EXPECT_EQ(canonical(parse_fields("vertex")), "vertex,");
   EXPECT_EQ(canonical(parse_fields("bary,vertex")), canonical(parse_fields("vertex,bary")));
   EXPECT_EQ(canonical(parse_fields("bary,corners,vertex")), "vertex,corners,bary");
+  EXPECT_EQ(canonical(parse_fields("distortion,confidence")), ",confidence,distortion");
+  EXPECT_FALSE(parse_fields("vertex").quality());
+  EXPECT_TRUE(parse_fields("distortion").quality());
   EXPECT_EQ(canonical(MatchFields{}), "vertex,");
   for (const char* text : {"Vertex", "vertex, bary", "vertices", ",vertex"}) EXPECT_THROW((void)parse_fields(text), ProblemError) << text;
 }
@@ -27,9 +31,13 @@ TEST(MatchResponse, OnlyTheSelectedArraysAreTaken) {
   result.quality = {{"coverage", 1}};
   result.seconds = {{"total", 2}};
 
+  StubEngine engine;
+  engine.version_text = "7";
+  const auto shape = std::make_shared<const PreprocessedShape>();
+  const MatchedShapes shapes{shape, shape};
   MatchQuery query{"s", "t", {}};
   const auto match = [&](const char* fields, MatchSource source = MatchSource::computed) {
-    return match_of(query, {std::make_shared<const MatchResult>(result), source}, parse_fields(fields), 3, "7");
+    return match_of(query, {std::make_shared<const MatchResult>(result), source}, parse_fields(fields), 3, engine, shapes);
   };
   const api::Match few = match("");
   EXPECT_EQ(few.src, "s");
@@ -42,7 +50,11 @@ TEST(MatchResponse, OnlyTheSelectedArraysAreTaken) {
   EXPECT_TRUE(match("", MatchSource::store).cached);
   EXPECT_TRUE(match("", MatchSource::memory).cached);
   EXPECT_FALSE(match("", MatchSource::joined).cached);
-  EXPECT_FALSE(few.vertex || few.corners || few.bary);
+  EXPECT_FALSE(few.vertex || few.corners || few.bary || few.confidence || few.distortion);
+  const api::Match judged = match("distortion,confidence");
+  EXPECT_EQ(*judged.distortion, (std::vector<float>{0.25F, 0.25F}));
+  EXPECT_EQ(*judged.confidence, (std::vector<float>{0.75F, 0.75F}));
+  EXPECT_FALSE(match("distortion").confidence);
   const api::Match all = match("vertex,corners,bary");
   EXPECT_EQ(*all.vertex, (std::vector<std::int32_t>{2, -1}));
   EXPECT_EQ(*all.corners, (std::vector<std::array<std::int32_t, 3>>{{2, 1, 0}, {-1, -1, -1}}));

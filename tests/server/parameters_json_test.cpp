@@ -32,6 +32,10 @@ TEST(ParametersJson, EveryFieldOfAMatchShows) {
   EXPECT_TRUE(changed(&MatchParameters::elastic_area, 0.5));
   EXPECT_TRUE(changed(&MatchParameters::elastic_yield, 2.0));
   EXPECT_TRUE(changed(&MatchParameters::elastic_signals, 1.0));
+  EXPECT_TRUE(changed(&MatchParameters::elastic_signal_yield, 2.0));
+  EXPECT_TRUE(changed(&MatchParameters::elastic_spectrum, 1.0));
+  EXPECT_TRUE(changed(&MatchParameters::elastic_eigenfunctions, 7));
+  EXPECT_TRUE(changed(&MatchParameters::elastic_more_eigenfunctions, 7));
   EXPECT_TRUE(changed(&MatchParameters::elastic_longest_move, 0.2));
   EXPECT_TRUE(changed(&MatchParameters::elastic_settled, 0.1));
   EXPECT_TRUE(changed(&MatchParameters::fine_candidates, 3));

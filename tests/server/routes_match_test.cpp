@@ -40,6 +40,11 @@ TEST_F(RoutesMatch, JsonCarriesTheSelectedFields) {
 }
 
 TEST_F(RoutesMatch, BothDirectionsOfOneRegistration) {
+  const auto judged = api::from_text<api::Match>(match({{"both", "yes"}, {"fields", "confidence"}}).body);
+  EXPECT_EQ(judged.confidence->size(), 5U);
+  EXPECT_EQ(judged.reverse->confidence->size(), 5U);
+  EXPECT_FALSE(judged.distortion || judged.vertex);
+
   const auto both = api::from_text<api::Match>(match({{"both", "yes"}, {"fields", "vertex"}}).body);
   ASSERT_TRUE(both.reverse);
   EXPECT_EQ(both.reverse->n_src, 5);

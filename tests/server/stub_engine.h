@@ -135,6 +135,13 @@ class StubEngine final : public EnginePort {
     return result;
   }
 
+  /// As many entries as the map has.
+  [[nodiscard]] VertexQuality vertex_quality(const ShapePointer& source, const ShapePointer& target,
+                                             const Correspondence& map) const override {
+    if (!source || !target) throw std::invalid_argument("without shapes");
+    return {std::vector<float>(map.vertex.size(), 0.25F), std::vector<float>(map.vertex.size(), 0.75F)};
+  }
+
  private:
   /// Four uploaded vertices on the surface and a fifth that was dropped.
   static Surface tetrahedron(const ReadOptions& options, bool hopeless) {
