@@ -19,7 +19,7 @@ std::vector<std::int32_t> numbers_in(const std::string& file, const Read& read) 
 }
 
 GroundTruth read_index_truth(const std::string& file, std::int32_t source_vertices) {
-  const std::vector<std::int32_t> targets = numbers_in(file, read_indices);
+  const std::vector<std::int32_t> targets = numbers_in(file, file.ends_with(".map") ? read_list_from_one : read_indices);
   if (targets.size() == static_cast<std::size_t>(source_vertices)) return index_truth(targets);
   throw EngineError(ErrorCode::invalid_parameter, file + " has " + std::to_string(targets.size()) + " entries, the source has " +
                                                       std::to_string(source_vertices) + " vertices");

@@ -18,11 +18,12 @@ namespace spherematch {
 
 namespace {
 
-constexpr std::array<Representation, 8> representations{{
+constexpr std::array<Representation, 9> representations{{
     {"json", "application/json"},  // the others are named as in engine/io/map_format.h
     {"npz", "application/x-npz"},
     {"npy", "application/x-npy"},
     {"txt", "text/plain"},
+    {"map", "text/plain"},  // by its name only: where Accept says text, it is the one before
     {"ply", "application/x-ply"},
     {"glb", "model/gltf-binary"},
     {"obj", "model/obj"},

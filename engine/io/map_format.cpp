@@ -11,10 +11,11 @@ namespace spherematch {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, MapFormat>, 7> formats{{
+constexpr std::array<std::pair<std::string_view, MapFormat>, 8> formats{{
     {"npz", MapFormat::npz},
     {"npy", MapFormat::npy},
     {"txt", MapFormat::text},
+    {"map", MapFormat::list_from_one},
     {"ply", MapFormat::ply},
     {"glb", MapFormat::glb},
     {"obj", MapFormat::obj},
@@ -49,6 +50,8 @@ std::string encode_map(MapFormat format, const Correspondence& map, const Surfac
       return encode_npy(map);
     case MapFormat::text:
       return encode_text(map);
+    case MapFormat::list_from_one:
+      return encode_list_from_one(map);
     case MapFormat::ply:
       return encode_ply(paint_mesh(std::move(source_mesh), map, target));
     case MapFormat::glb:

@@ -12,9 +12,9 @@
 
 namespace spherematch {
 
-enum class MapFormat { npz, npy, text, ply, glb, obj, png };
+enum class MapFormat { npz, npy, text, list_from_one, ply, glb, obj, png };
 
-/// "npz", "npy", "txt", "ply", "glb", "obj", "png": in this order.
+/// "npz", "npy", "txt", "map", "ply", "glb", "obj", "png": in this order.
 [[nodiscard]] std::vector<std::string_view> map_format_names();
 
 /// Nothing for another name; capitals are another name.

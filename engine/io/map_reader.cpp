@@ -131,4 +131,10 @@ std::vector<std::int32_t> read_indices(std::string_view text) {
   return read_numbers(text, -1, "vertex numbers count from 0, and -1 stands for none");
 }
 
+std::vector<std::int32_t> read_list_from_one(std::string_view text) {
+  std::vector<std::int32_t> numbers = read_numbers(text, 0, "vertex numbers count from 1, and 0 stands for none");
+  for (std::int32_t& number : numbers) --number;
+  return numbers;
+}
+
 }  // namespace spherematch

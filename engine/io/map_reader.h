@@ -24,4 +24,8 @@ namespace spherematch {
 /// @throws EngineError(malformed_mesh) with the line
 [[nodiscard]] std::vector<std::int32_t> read_indices(std::string_view text);
 
+/// Reads an index list as encode_list_from_one() writes it. Returns the numbers counted from 0, -1 for none.
+/// @throws EngineError(malformed_mesh) with the line
+[[nodiscard]] std::vector<std::int32_t> read_list_from_one(std::string_view text);
+
 }  // namespace spherematch

@@ -23,6 +23,19 @@ void add_map(std::vector<NamedArray>& arrays, const std::string& prefix, const C
   arrays.push_back({prefix + "bary", matrix_npy("<f4", map.bary)});
 }
 
+/// The indices, one a line, counted from `first`; a dropped vertex has the number before it.
+std::string list(const Correspondence& map, std::int32_t first) {
+  std::string text;
+  text.reserve(map.vertex.size() * 7);
+  std::array<char, 16> digits{};
+  for (const std::int32_t vertex : map.vertex) {
+    const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), vertex + first);
+    text.append(digits.data(), result.ptr);
+    text += '\n';
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string encode_npy(const Correspondence& map) {
@@ -32,17 +45,9 @@ std::string encode_npy(const Correspondence& map) {
 
 std::string encode_npy(const Points& points) { return matrix_npy("<f8", points); }
 
-std::string encode_text(const Correspondence& map) {
-  std::string text;
-  text.reserve(map.vertex.size() * 7);
-  std::array<char, 16> digits{};
-  for (const std::int32_t vertex : map.vertex) {
-    const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), vertex);
-    text.append(digits.data(), result.ptr);
-    text += '\n';
-  }
-  return text;
-}
+std::string encode_text(const Correspondence& map) { return list(map, 0); }
+
+std::string encode_list_from_one(const Correspondence& map) { return list(map, 1); }
 
 std::string encode_npz(const Correspondence& map) {
   std::vector<NamedArray> arrays;

@@ -17,8 +17,12 @@ namespace spherematch {
 /// `vertex` as NPY, int32 (n,).
 [[nodiscard]] std::string encode_npy(const Correspondence& map);
 
-/// `vertex` as text, one index per line.
+/// `vertex` as text, one index per line, from 0 as NumPy and pyFM count; -1 for a dropped vertex.
 [[nodiscard]] std::string encode_text(const Correspondence& map);
+
+/// `vertex` as text, one index per line, from 1 as MATLAB counts; 0 for a dropped vertex: the `.map` files of Ren, Poulenard, Wonka and
+/// Ovsjanikov (2018), "Continuous and Orientation-preserving Correspondences via Functional Maps".
+[[nodiscard]] std::string encode_list_from_one(const Correspondence& map);
 
 /// Points as NPY, float64 (n, 3).
 [[nodiscard]] std::string encode_npy(const Points& points);

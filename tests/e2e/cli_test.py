@@ -45,7 +45,7 @@ class CliTest(support.TestCase):
         for name in ('a', 'b'):
             with open(f'{self.place}/{name}.off', 'rb') as file:
                 ids.append(server.ready(file.read()))
-        for extension in ('npz', 'npy', 'txt', 'ply', 'glb', 'obj', 'png'):
+        for extension in ('npz', 'npy', 'txt', 'map', 'ply', 'glb', 'obj', 'png'):
             done = self.run_cli('match', 'a.off', 'b.off', '--store', self.store, '-o', 'map.' + extension)
             self.assertEqual(done.returncode, 0, done.stderr)
             with open(f'{self.place}/map.{extension}', 'rb') as file:
@@ -92,7 +92,7 @@ class CliTest(support.TestCase):
         server = self.serve(self.store)
         with open(self.place + '/a.off', 'rb') as file:
             shape = server.ready(file.read())
-        for extension in ('npz', 'npy', 'txt', 'ply', 'glb', 'obj', 'png'):
+        for extension in ('npz', 'npy', 'txt', 'map', 'ply', 'glb', 'obj', 'png'):
             done = self.run_cli('symmetry', 'a.off', '--store', self.store, '-o', 'map.' + extension, '--hints', '3:4')
             self.assertEqual(done.returncode, 0, done.stderr)
             with open(f'{self.place}/map.{extension}', 'rb') as file:
@@ -218,7 +218,7 @@ class CliTest(support.TestCase):
         fails(2, 'subcommand')
         fails(2, 'subcommand', 'bogus')
         fails(2, 'SRC', 'match')
-        fails(2, '.npz, .npy, .txt, .ply, .glb, .obj, .png', 'match', 'a.off', 'b.off', '-o', 'map.xyz', '--store', self.store)
+        fails(2, '.npz, .npy, .txt, .map, .ply, .glb, .obj, .png', 'match', 'a.off', 'b.off', '-o', 'map.xyz', '--store', self.store)
         fails(3, 'torus.off: ', 'prepare', 'torus.off', '--store', self.store)
         fails(4, 'nowhere.off: ', 'prepare', 'nowhere.off', '--store', self.store)
         fails(4, '', 'prepare', 'a.off', '--store', self.place + '/a.off')

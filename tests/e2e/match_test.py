@@ -40,6 +40,7 @@ class MatchTest(support.TestCase):
         self.assertEqual(npz['bary'][1], as_float)
         self.assertEqual(support.read_npy(self.match(format='npy').body), ('<i4', whole['vertex']))
         self.assertEqual([int(line) for line in self.match(format='txt').body.split()], whole['vertex'])
+        self.assertEqual([int(line) - 1 for line in self.match(format='map').body.split()], whole['vertex'])
 
     def test_the_map_is_sound(self):
         result = self.match(fields='vertex,corners,bary').json()
@@ -176,7 +177,7 @@ class MatchTest(support.TestCase):
             self.assertAlmostEqual(math.hypot(*row), 1, places=9)
 
     def test_the_same_bytes_again_after_a_restart_and_with_another_thread_count(self):
-        formats = ('npz', 'npy', 'txt', 'ply', 'glb', 'obj', 'png')
+        formats = ('npz', 'npy', 'txt', 'map', 'ply', 'glb', 'obj', 'png')
         fields = 'vertex,corners,bary'
 
         def stable(server):

@@ -79,6 +79,9 @@ TEST_F(RoutesMatch, EveryRepresentationByParameterAndByHeader) {
     EXPECT_EQ(header(by_parameter, "Vary"), "Accept");
   }
   EXPECT_EQ(match({{"format", "txt"}}).body, "1\n2\n3\n0\n-1\n");
+  EXPECT_EQ(match({{"format", "map"}}).body, "2\n3\n4\n1\n0\n");
+  EXPECT_EQ(match({{"format", "map"}}).content_type, "text/plain");
+  EXPECT_NE(header(match({{"format", "map"}}), "ETag"), header(match({{"format", "txt"}}), "ETag"));
   EXPECT_EQ(match({{"format", "npz"}}).body.substr(0, 2), "PK");
   std::int32_t vertex[5];
   const std::string npy = match({{"format", "npy"}}).body;
@@ -111,7 +114,7 @@ TEST_F(RoutesMatch, ParametersAreChecked) {
             std::string::npos);
   EXPECT_EQ(problem_code(match({{"format", "exe"}})), api::Code::invalid_parameter);
   EXPECT_EQ(problem_code(match({{"fields", "faces"}})), api::Code::invalid_parameter);
-  EXPECT_NE(match({{"format", "exe"}}).body.find("json, npz, npy, txt, ply, glb, obj, png"), std::string::npos);
+  EXPECT_NE(match({{"format", "exe"}}).body.find("json, npz, npy, txt, map, ply, glb, obj, png"), std::string::npos);
   for (const char* format : {"npz", "ply", "glb", "obj", "png"})
     EXPECT_EQ(problem_code(match({{"fields", "vertex"}, {"format", format}})), api::Code::invalid_parameter);
   EXPECT_EQ(problem_code(match({{"cache", "maybe"}})), api::Code::invalid_parameter);
@@ -174,7 +177,7 @@ TEST_F(RoutesMatch, TheSymmetryIsTheMatchWithTheMirrorImage) {
 
   // One result, under either name, in every format.
   const std::multimap<std::string, std::string> as_match{{"src", src}, {"tgt", src}, {"orientation", "reverse"}};
-  for (const char* format : {"json", "npz", "npy", "txt", "ply", "glb", "obj", "png"}) {
+  for (const char* format : {"json", "npz", "npy", "txt", "map", "ply", "glb", "obj", "png"}) {
     auto query = as_match;
     query.emplace("format", format);
     const HttpResponse by_name = get(path, {{"format", format}}), by_match = get("/match", query);

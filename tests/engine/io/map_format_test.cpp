@@ -15,8 +15,8 @@ TEST(MapFormat, EveryNameIsKnownAndEncodes) {
   const Surface surface = repair(mesh, RepairMode::none);
   const Correspondence map = identity_map(surface);
   const std::vector<std::string_view> names = map_format_names();
-  EXPECT_EQ(names, (std::vector<std::string_view>{"npz", "npy", "txt", "ply", "glb", "obj", "png"}));
-  const std::vector<std::string> beginnings{"PK", "\x93NUMPY", "0\n1\n", "ply\n", "glTF", "# ", "\x89PNG\r\n"};
+  EXPECT_EQ(names, (std::vector<std::string_view>{"npz", "npy", "txt", "map", "ply", "glb", "obj", "png"}));
+  const std::vector<std::string> beginnings{"PK", "\x93NUMPY", "0\n1\n", "1\n2\n", "ply\n", "glTF", "# ", "\x89PNG\r\n"};
   for (std::size_t i = 0; i < names.size(); ++i) {
     const MapFormat format = map_format_of(names[i]).value();
     const std::string bytes = encode_map(format, map, surface, surface, needs_source_mesh(format) ? mesh : PolygonMesh{});

@@ -70,5 +70,12 @@ TEST(ReadIndices, CountsFromZeroWithMinusOneForNone) {
     test::expect_refusal(ErrorCode::malformed_mesh, [&] { (void)read_indices(text); });
 }
 
+TEST(MapReader, ListsFromOneHaveZeroForNone) {
+  EXPECT_EQ(read_list_from_one("1\n0 8\n"), (std::vector<std::int32_t>{0, -1, 7}));
+  EXPECT_TRUE(read_list_from_one("").empty());
+  for (const char* text : {"-1", "0.5", "x", "2147483648"})
+    test::expect_refusal(ErrorCode::malformed_mesh, [&] { (void)read_list_from_one(text); });
+}
+
 }  // namespace
 }  // namespace spherematch

@@ -94,6 +94,8 @@ TEST(MapWriter, NpyHoldsPoints) {
 TEST(MapWriter, TextHasAnIndexPerLine) {
   EXPECT_EQ(encode_text(some_map(3)), "-1\n6\n13\n");
   EXPECT_EQ(encode_text(some_map(0)), "");
+  EXPECT_EQ(encode_list_from_one(some_map(3)), "0\n7\n14\n");
+  EXPECT_EQ(encode_list_from_one(some_map(0)), "");
 }
 
 TEST(MapWriter, NpzHoldsTheThreeArraysStored) {
