@@ -139,6 +139,10 @@ std::string Client::mesh(const std::string& id, const std::string& format) const
   return transport_->send(get("/shapes/" + id + "/mesh", {{"format", format}}));
 }
 
+std::string Client::thumbnail(const std::string& id, int size) const {
+  return transport_->send(get("/shapes/" + id + "/thumbnail.png", {{"size", std::to_string(size)}}));
+}
+
 Map Client::match(const std::string& src, const std::string& tgt, const MatchOptions& options) const {
   return decode_map(match_file(src, tgt, "npz", options));
 }

@@ -74,6 +74,8 @@ class Client {
   void remove(const std::string& id) const;
   /// "original", "off", "obj", "ply", "stl" or "glb".
   [[nodiscard]] std::string mesh(const std::string& id, const std::string& format = "original") const;
+  /// A picture of the uploaded mesh, size x size pixels: the bytes of a PNG file.
+  [[nodiscard]] std::string thumbnail(const std::string& id, int size = 256) const;
 
   // Matches
 
@@ -81,7 +83,7 @@ class Client {
   [[nodiscard]] Map match(const std::string& src, const std::string& tgt, const MatchOptions& options = {}) const;
   /// What there is to know of a match besides its arrays.
   [[nodiscard]] api::Match match_info(const std::string& src, const std::string& tgt, const MatchOptions& options = {}) const;
-  /// The bytes of a file: "npz", "npy", "txt", "ply", "glb", "obj" or "png".
+  /// The bytes of a file: "npz", "npy", "txt", "map", "ply", "glb", "obj" or "png".
   [[nodiscard]] std::string match_file(const std::string& src, const std::string& tgt, const std::string& format,
                                        const MatchOptions& options = {}) const;
   /// The intrinsic bilateral symmetry of a shape, a map to itself, in the same three forms. Of the options, orientation and both have no

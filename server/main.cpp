@@ -122,6 +122,7 @@ int serve(const ServerOptions& options) {
   add_system_routes(router, context);
   add_shape_routes(router, context);
   add_derived_routes(router, context);
+  add_thumbnail_routes(router, context);
   add_match_routes(router, context);
   add_match_post_routes(router, context);
   add_evaluation_routes(router, context);

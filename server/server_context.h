@@ -29,6 +29,7 @@ struct ServerContext {
 
 void add_shape_routes(Router& router, const ServerContext& context);
 void add_derived_routes(Router& router, const ServerContext& context);
+void add_thumbnail_routes(Router& router, const ServerContext& context);
 void add_docs_routes(Router& router);
 void add_job_routes(Router& router, const ServerContext& context);
 void add_match_routes(Router& router, const ServerContext& context);

@@ -1,7 +1,5 @@
 #include "engine/io/map_picture.h"
 
-#include <png.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -9,9 +7,8 @@
 #include <stdexcept>
 
 #include "engine/io/camera.h"
-#include "engine/io/float_range.h"
 #include "engine/io/map_mesh.h"
-#include "engine/io/renderer.h"
+#include "engine/io/picture.h"
 
 namespace spherematch {
 
@@ -19,25 +16,6 @@ namespace {
 
 constexpr int side = 600;
 constexpr int margin = 24;
-
-/// A third of the area round each vertex.
-Eigen::VectorXd vertex_areas(const TriMesh& mesh) {
-  Eigen::VectorXd areas = Eigen::VectorXd::Zero(mesh.vertex_count());
-  for (Eigen::Index f = 0; f < mesh.face_count(); ++f) {
-    const Eigen::RowVector3d a = mesh.vertices.row(mesh.faces(f, 0));
-    const double area = (mesh.vertices.row(mesh.faces(f, 1)) - a).cross(mesh.vertices.row(mesh.faces(f, 2)) - a).norm() / 2;
-    for (int k = 0; k < 3; ++k) areas(mesh.faces(f, k)) += area / 3;
-  }
-  return areas;
-}
-
-/// The mesh moved to the origin and scaled to unit area.
-TriMesh with_unit_area(const TriMesh& mesh) {
-  const Box box = box_of(mesh.vertices);
-  TriMesh result{.vertices = (mesh.vertices.rowwise() - box.center()) / box.radius(), .faces = mesh.faces};
-  result.vertices /= std::sqrt(vertex_areas(result).sum());
-  return result;
-}
 
 /// Rows of `values`, one for each uploaded vertex, brought to the vertices of the surface; NaN at an added vertex.
 Points on_surface(const Points& values, const Surface& surface) {
@@ -55,28 +33,6 @@ Points on_surface(const Points& values, const Surface& surface) {
     }
   }
   return result;
-}
-
-/// Puts the middle of what is seen into the middle of the picture; returns the larger side of what is seen.
-double center_view(Scene& scene) {
-  const Box seen = box_of(scene.mesh.vertices * scene.axes.transpose());
-  scene.center = scene.axes.transpose() * seen.center().transpose();
-  return (seen.high - seen.low).head<2>().maxCoeff();
-}
-
-std::string to_png(const Image& image) {
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  header.width = static_cast<png_uint_32>(image.width);
-  header.height = static_cast<png_uint_32>(image.height);
-  header.format = PNG_FORMAT_RGB;
-  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(header), '\0');
-  png_alloc_size_t size = bytes.size();
-  if (png_image_write_to_memory(&header, bytes.data(), &size, 0, image.pixels.data(), 0, nullptr) == 0) {
-    throw std::runtime_error(std::string("writing a PNG failed: ") + header.message);
-  }
-  bytes.resize(size);
-  return bytes;
 }
 
 }  // namespace
@@ -98,7 +54,7 @@ std::string encode_png(const Correspondence& map, const Surface& source, const S
   Image image(2 * side, side);
   render(left_scene, image, 0);
   render(right_scene, image, side);
-  return to_png(image);
+  return png_of(image);
 }
 
 }  // namespace spherematch

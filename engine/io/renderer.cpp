@@ -13,7 +13,7 @@ namespace spherematch {
 namespace {
 
 constexpr int samples = 3;  ///< per pixel and axis
-constexpr std::uint8_t background = 255;
+constexpr std::uint8_t white = 255;
 
 using Rgb = std::array<std::uint8_t, 3>;
 using Vectors = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
@@ -27,7 +27,7 @@ struct Canvas {
   explicit Canvas(int n)
       : size(n),
         depth(static_cast<std::size_t>(n) * static_cast<std::size_t>(n), -std::numeric_limits<float>::infinity()),
-        color(depth.size(), {background, background, background}) {}
+        color(depth.size(), {white, white, white}) {}
   [[nodiscard]] std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(size) + static_cast<std::size_t>(x);
   }
@@ -90,11 +90,18 @@ float edge(const Eigen::Vector3f& a, const Eigen::Vector3f& b, float x, float y)
   return (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
 }
 
-void draw(Canvas& canvas, const Lamp& lamp, const std::array<Corner, 3>& corners) {
+/// The colour that a point's interpolated paint stands for.
+Eigen::Vector3f color_of(Paint kind, const Eigen::Vector3f& paint) {
+  return kind == Paint::color || std::isnan(paint.x()) ? paint : checker_color(paint.x(), paint.y());
+}
+
+void draw(Canvas& canvas, const Lamp& lamp, const Scene& scene, const std::array<Corner, 3>& corners) {
   const auto& [a, b, c] = corners;
   // Seen from behind, or from the side; rows run downward, so that what faces the viewer is negative.
   const float area = edge(a.position, b.position, c.position.x(), c.position.y());
-  if (!(area < 0)) return;
+  const bool faces_viewer = area < 0;
+  if (!faces_viewer && !(scene.two_sided && area > 0)) return;
+  const float outward = faces_viewer ? 1.0F : -1.0F;
   const float inverse = 1 / area;
   const auto first = [](float low) { return static_cast<int>(std::max(0.0F, std::ceil(low - 0.5F))); };
   const auto last = [&](float high) { return static_cast<int>(std::min(static_cast<float>(canvas.size - 1), std::floor(high - 0.5F))); };
@@ -112,30 +119,48 @@ void draw(Canvas& canvas, const Lamp& lamp, const std::array<Corner, 3>& corners
       float& depth = canvas.depth[canvas.index(x, y)];
       if (z <= depth) continue;
       depth = z;
-      canvas.color[canvas.index(x, y)] = shaded(lamp, u * a.paint + v * b.paint + w * c.paint, u * a.normal + v * b.normal + w * c.normal);
+      canvas.color[canvas.index(x, y)] = shaded(lamp, color_of(scene.kind, u * a.paint + v * b.paint + w * c.paint),
+                                                outward * (u * a.normal + v * b.normal + w * c.normal));
     }
   }
 }
 
-void average(const Canvas& canvas, Image& image, int left) {
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.height; ++x) {
-      std::array<int, 3> sum{};
-      for (int j = 0; j < samples; ++j) {
-        for (int i = 0; i < samples; ++i) {
-          const auto& color = canvas.color[canvas.index(x * samples + i, y * samples + j)];
-          for (std::size_t k = 0; k < 3; ++k) sum[k] += color[k];
-        }
-      }
-      constexpr int count = samples * samples;
-      for (std::size_t k = 0; k < 3; ++k) image.at(left + x, y)[k] = static_cast<std::uint8_t>((sum[k] + count / 2) / count);
+/// The mean colour of the samples of a pixel, or of those that are covered, and their share.
+void average(const Canvas& canvas, const Image& image, int x, int y, std::uint8_t* pixel) {
+  constexpr int all = samples * samples;
+  const bool opaque = image.background == Background::white;
+  std::array<int, 3> sum{};
+  int counted = 0;
+  for (int j = 0; j < samples; ++j) {
+    for (int i = 0; i < samples; ++i) {
+      const std::size_t sample = canvas.index(x * samples + i, y * samples + j);
+      if (!opaque && std::isinf(canvas.depth[sample])) continue;
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += canvas.color[sample][k];
+      ++counted;
     }
   }
+  for (std::size_t k = 0; k < 3; ++k) pixel[k] = counted == 0 ? 0 : static_cast<std::uint8_t>((sum[k] + counted / 2) / counted);
+  if (!opaque) pixel[3] = static_cast<std::uint8_t>((255 * counted + all / 2) / all);
 }
 
 }  // namespace
 
-Image::Image(int w, int h) : width(w), height(h), pixels(3 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h), background) {}
+Image::Image(int w, int h, Background behind) : width(w), height(h), background(behind) {
+  pixels.resize(static_cast<std::size_t>(channels()) * static_cast<std::size_t>(w) * static_cast<std::size_t>(h),
+                behind == Background::white ? white : std::uint8_t{0});
+}
+
+Eigen::Vector3f checker_color(float u, float v) {
+  constexpr float fields = 8;
+  u -= std::floor(u);
+  v -= std::floor(v);
+  // Red, yellow, green, blue and back to red along u, softened so that shading stays visible.
+  const float turn = 6 * u;
+  const Eigen::Vector3f hue(std::abs(turn - 3) - 1, 2 - std::abs(turn - 2), 2 - std::abs(turn - 4));
+  const Eigen::Vector3f bright = Eigen::Vector3f::Constant(0.25F) + 0.75F * hue.cwiseMax(0.0F).cwiseMin(1.0F);
+  const bool odd = (static_cast<int>(fields * u) + static_cast<int>(fields * v)) % 2 != 0;
+  return odd ? Eigen::Vector3f::Constant(0.92F - 0.25F * (1 - v)) : Eigen::Vector3f(bright * (0.35F + 0.55F * v));
+}
 
 void render(const Scene& scene, Image& image, int left) {
   Canvas canvas(image.height * samples);
@@ -148,9 +173,10 @@ void render(const Scene& scene, Image& image, int left) {
       const std::int32_t v = scene.mesh.faces(f, k);
       corners[static_cast<std::size_t>(k)] = {positions.row(v), normals.row(v), scene.paint.row(v).cast<float>()};
     }
-    draw(canvas, lamp, corners);
+    draw(canvas, lamp, scene, corners);
   }
-  average(canvas, image, left);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.height; ++x) average(canvas, image, x, y, image.at(left + x, y));
 }
 
 }  // namespace spherematch

@@ -57,6 +57,15 @@ TEST_F(ClientTest, ARefusalIsAnErrorWithItsProblem) {
   EXPECT_EQ(calls, 1);
 }
 
+TEST_F(ClientTest, AThumbnailIsAskedForInItsSize) {
+  server.Get("/shapes/x/thumbnail.png", [](const auto& request, auto& response) {
+    response.set_content("picture of " + request.get_param_value("size"), "image/png");
+  });
+  start();
+  EXPECT_EQ(client().thumbnail("x", 64), "picture of 64");
+  EXPECT_EQ(client().thumbnail("x"), "picture of 256");
+}
+
 TEST_F(ClientTest, RefusalsThatPassAreTriedAgain) {
   server.Get("/healthz", [&](const auto&, auto& response) {
     if (++calls < 3) {

@@ -52,7 +52,7 @@ class OpenApiTest(support.TestCase):
                                          ('post', '/evaluations', json.dumps({'src': self.a, 'tgt': self.b}).encode(), ''),
                                          ('post', '/shapes', b'x', ''), ('get', '/shapes/{id}/mesh', None, ''),
                                          ('get', '/shapes/{id}/sphere', None, ''), ('get', '/shapes/{id}/hks', None, ''),
-                                         ('get', '/shapes/{id}/symmetry', None, '')):
+                                         ('get', '/shapes/{id}/symmetry', None, ''), ('get', '/shapes/{id}/thumbnail.png', None, '')):
             checker.check_values(method, path, self.target(path), body, rest)
 
     def walk(self, checker):
@@ -81,7 +81,7 @@ class OpenApiTest(support.TestCase):
         self.assertEqual(call('patch', '/shapes/{id}', '/shapes/' + c, b'{}', {'If-Match': one.headers['ETag']}).status, 412)
         call('patch', '/shapes/{id}', '/shapes/' + c, b'[')
         for part, formats in (('mesh', ('original', 'off', 'obj', 'ply', 'stl', 'glb', 'x')), ('sphere', ('npy', 'ply')), ('hks', ('npz', 'npy')),
-                              ('symmetry', ('json', 'npz', 'npy', 'txt', 'ply', 'glb', 'obj', 'png'))):
+                              ('symmetry', ('json', 'npz', 'npy', 'txt', 'map', 'ply', 'glb', 'obj', 'png')), ('thumbnail.png', ())):
             path = '/shapes/{id}/' + part
             for name in formats:
                 call('get', path, f'/shapes/{a}/{part}?format={name}')
@@ -99,7 +99,7 @@ class OpenApiTest(support.TestCase):
 
     def matches(self, checker):
         call, pair = checker.call, f'src={self.a}&tgt={self.b}'
-        for rest in ('fields=vertex,corners,bary,confidence,distortion&both=yes', 'format=npz', 'format=npy', 'format=txt', 'format=ply', 'format=glb', 'format=obj',
+        for rest in ('fields=vertex,corners,bary,confidence,distortion&both=yes', 'format=npz', 'format=npy', 'format=txt', 'format=map', 'format=ply', 'format=glb', 'format=obj',
                      'format=png', 'fields=faces', 'orientation=any', 'refine=none', 'refine=x', 'candidate=0', 'candidate=7', 'hints=0:0', 'hints=0:99999'):
             tagged = call('get', '/match', f'/match?{pair}&{rest}')
         tagged = call('get', '/match', '/match?' + pair)

@@ -50,6 +50,8 @@ class PythonClientTest(support.TestCase):
         self.assertEqual(self.client.mesh(self.b), support.off(B))
         sphere = self.client.sphere(self.a)
         self.assertLess(np.abs(np.linalg.norm(sphere, axis=1) - 1).max(), 1e-12)
+        png = self.client.thumbnail(self.a, size=64)
+        self.assertEqual((png[:4], png[16:24]), (b'\x89PNG', b'\0\0\0\x40' * 2))
         times, grids = self.client.heat_kernel_signatures(self.a)
         self.assertEqual(len(times), len(grids))
 

@@ -48,6 +48,7 @@ class TestService : public ::testing::Test {
     router = std::make_unique<Router>();
     add_shape_routes(*router, *context);
     add_derived_routes(*router, *context);
+    add_thumbnail_routes(*router, *context);
     add_match_routes(*router, *context);
     add_match_post_routes(*router, *context);
     add_evaluation_routes(*router, *context);

@@ -142,6 +142,10 @@ class Client:
         """The bytes of the mesh, as uploaded or as off, obj, ply, stl or glb."""
         return self._http.request('GET', f'/shapes/{_id(shape)}/mesh', {'format': format})[2]
 
+    def thumbnail(self, shape, size=256):
+        """A picture of the uploaded mesh, size x size pixels: the bytes of a PNG file with a transparent background."""
+        return self._http.request('GET', f'/shapes/{_id(shape)}/thumbnail.png', {'size': size})[2]
+
     def sphere(self, shape):
         """The spherical parametrisation: float64 (n, 3), not-a-number for dropped vertices."""
         return meshes.load(self._http.request('GET', f'/shapes/{_id(shape)}/sphere', {'format': 'npy'})[2])
@@ -159,7 +163,7 @@ class Client:
         return Match(meshes.load(self.match_file(source, target, 'npz', both, orientation, hints, method, cache, candidate, refine)))
 
     def match_file(self, source, target, format, both=False, orientation=None, hints=None, method=None, cache=None, candidate=None, refine=None):
-        """The same as the bytes of a file: npz, npy, txt, ply, glb, obj, png or json."""
+        """The same as the bytes of a file: npz, npy, txt, map, ply, glb, obj, png or json."""
         query = {'src': _id(source), 'tgt': _id(target), 'format': format, 'both': 'yes' if both else None, 'orientation': orientation,
                  'hints': _hints(hints), 'method': method, 'cache': cache, 'candidate': candidate, 'refine': refine, 'wait': _LONGEST_WAIT}
         return self._http.request('GET', '/match', query, extra_time=_LONGEST_WAIT)[2]
@@ -174,7 +178,7 @@ class Client:
         return Match(meshes.load(self.symmetry_file(shape, 'npz', hints, method, cache, candidate, refine)))
 
     def symmetry_file(self, shape, format, hints=None, method=None, cache=None, candidate=None, refine=None):
-        """The same as the bytes of a file: npz, npy, txt, ply, glb, obj, png or json."""
+        """The same as the bytes of a file: npz, npy, txt, map, ply, glb, obj, png or json."""
         query = {'format': format, 'hints': _hints(hints), 'method': method, 'cache': cache, 'candidate': candidate, 'refine': refine, 'wait': _LONGEST_WAIT}
         return self._http.request('GET', f'/shapes/{_id(shape)}/symmetry', query, extra_time=_LONGEST_WAIT)[2]
 

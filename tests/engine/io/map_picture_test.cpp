@@ -1,7 +1,6 @@
 #include "engine/io/map_picture.h"
 
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -10,26 +9,16 @@
 #include <vector>
 
 #include "engine/io/renderer.h"
+#include "tests/engine/io/pictures.h"
 #include "tests/engine/io/some_maps.h"
 
 namespace spherematch::test {
 namespace {
 
-Image decoded(const std::string& bytes) {
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  EXPECT_NE(png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()), 0) << header.message;
-  EXPECT_EQ(header.format, static_cast<png_uint_32>(PNG_FORMAT_RGB));
-  header.format = PNG_FORMAT_RGB;
-  Image image(static_cast<int>(header.width), static_cast<int>(header.height));
-  EXPECT_NE(png_image_finish_read(&header, nullptr, image.pixels.data(), 0, nullptr), 0) << header.message;
-  return image;
-}
-
 Image picture(const PolygonMesh& source, const PolygonMesh& target) {
   const Surface from = repair(source, RepairMode::fill);
   const Surface to = repair(target, RepairMode::fill);
-  return decoded(encode_png(identity_map(from), from, to));
+  return decoded_png(encode_png(identity_map(from), from, to));
 }
 
 using Pixel = Eigen::Vector3i;
@@ -80,7 +69,7 @@ TEST(MapPicture, CorrespondingPointsShareTheirColorAndOthersDoNot) {
     wrong.corners.row(v) = surface.uploaded_corners.row(0);
     wrong.bary.row(v) = Eigen::RowVector3f::Unit(0);
   }
-  Image image = decoded(encode_png(wrong, surface, surface));
+  Image image = decoded_png(encode_png(wrong, surface, surface));
   EXPECT_GT(difference_of_halves(image, 30), 0.5);
 }
 
@@ -91,7 +80,7 @@ TEST(MapPicture, WhatHasNoImageIsGray) {
   for (std::int32_t v = 0; v < surface.mesh.vertex_count(); ++v)
     if (added(v)) surface.surface_vertex[static_cast<std::size_t>(v)] = -1;
   surface.uploaded_corners = surface.uploaded_corners.unaryExpr([&](std::int32_t v) { return added(v) ? -1 : v; }).eval();
-  Image image = decoded(encode_png(identity_map(surface), surface, surface));
+  Image image = decoded_png(encode_png(identity_map(surface), surface, surface));
   int gray = 0;
   for (int y = 0; y < 600; ++y) {
     for (int x = 0; x < 600; ++x) {
@@ -115,7 +104,7 @@ TEST(MapPicture, BytesDependOnTheArgumentsAlone) {
 
 TEST(MapPicture, SizeAndPlaceOfTheCoordinatesDoNotMatter) {
   const Surface surface = repair(polygons(creature(3)), RepairMode::none);
-  Image expected = decoded(encode_png(identity_map(surface), surface, surface));
+  Image expected = decoded_png(encode_png(identity_map(surface), surface, surface));
   for (const auto& [scale, shift] : {std::pair{1e50, 0.0}, {1e-50, 0.0}, {1.0, 1e6}}) {
     const PolygonMesh mesh = polygons(transformed(creature(3), scale, Eigen::Matrix3d::Identity(), Eigen::Vector3d::Constant(shift)));
     Image image = picture(mesh, mesh);
@@ -159,6 +148,35 @@ TEST(Renderer, TheNearerSurfaceHidesTheFarther) {
     Image other(100, 100);
     render({both, paint, behind, Eigen::Vector3d::Zero(), 40}, other, 0);
     EXPECT_GT(pixel(other, 50, 50).z(), pixel(other, 50, 50).x() + 50);
+  }
+}
+
+TEST(Renderer, OnlyTwoSidedScenesShowFacesFromBehind) {
+  TriMesh inside_out = icosphere(3);
+  inside_out.faces.col(1).swap(inside_out.faces.col(2));
+  inside_out.faces.conservativeResize(1, 3);  // one face, so that nothing else is seen
+  const Points paint = Points::Constant(inside_out.vertex_count(), 3, 0.5);
+  ViewAxes axes = ViewAxes::Identity();
+  axes.row(2) = inside_out.vertices.row(inside_out.faces(0, 0)).normalized();
+  axes.row(0) = axes.row(2).cross(Eigen::RowVector3d::Unit(0)).normalized();
+  axes.row(1) = axes.row(2).cross(axes.row(0));
+  const Eigen::Vector3d center = inside_out.vertices.row(inside_out.faces(0, 0)).transpose();
+  for (const bool two_sided : {false, true}) {
+    Image image(100, 100);
+    render({inside_out, paint, axes, center, 200, Paint::color, two_sided}, image, 0);
+    int covered = 0;
+    for (int y = 0; y < 100; ++y)
+      for (int x = 0; x < 100; ++x) covered += pixel(image, x, y) != white;
+    EXPECT_EQ(covered > 100, two_sided) << covered;
+  }
+}
+
+TEST(Renderer, TheCheckerboardRepeatsAndItsFieldsDiffer) {
+  for (const auto& [u, v] : {std::pair{0.05F, 0.05F}, {0.3F, 0.7F}, {0.99F, 0.2F}}) {
+    EXPECT_LT((checker_color(u, v) - checker_color(u + 1, v - 2)).norm(), 1e-4F);
+    EXPECT_GT((checker_color(u, v) - checker_color(u + 0.125F, v)).norm(), 0.05F);
+    EXPECT_GT((checker_color(u, v) - checker_color(u, v + 0.125F)).norm(), 0.05F);
+    EXPECT_TRUE((checker_color(u, v).array() >= 0).all() && (checker_color(u, v).array() <= 1).all());
   }
 }
 
