@@ -73,6 +73,16 @@ Request send_json(std::string method, std::string path, std::string_view body, b
           .repeatable = repeatable};
 }
 
+/// `npy` must live until the request is sent.
+Request post_array(std::string path, Query query, std::string_view npy) {
+  return {.method = "POST",
+          .path = std::move(path),
+          .query = std::move(query),
+          .body = npy,
+          .content_type = "application/x-npy",
+          .wait = longest_wait};
+}
+
 }  // namespace
 
 Client::Client(const std::string& url, Settings settings) : transport_(std::make_shared<const Transport>(url, std::move(settings))) {}
@@ -199,15 +209,17 @@ api::Evaluation Client::evaluate(const api::EvaluationRequest& request) const {
 
 std::vector<double> Client::transfer(const std::string& src, const std::string& tgt, std::span<const double> values, std::size_t columns,
                                      const std::string& interpolation, const MatchOptions& options) const {
-  const std::string body = encode_npy(values, columns);
   Query query = match_query(src, tgt, options);
   query.emplace_back("interp", interpolation);
-  return decode_npy(transport_->send({.method = "POST",
-                                      .path = "/transfer",
-                                      .query = std::move(query),
-                                      .body = body,
-                                      .content_type = "application/x-npy",
-                                      .wait = longest_wait}));
+  return decode_npy(transport_->send(post_array("/transfer", std::move(query), encode_npy(values, columns))));
+}
+
+std::string Client::transfer_file(const std::string& src, const std::string& tgt, std::span<const double> values, std::size_t columns,
+                                  const std::string& format, const std::string& meaning, const MatchOptions& options) const {
+  Query query = match_query(src, tgt, options);
+  query.emplace_back("format", format);
+  query.emplace_back("as", meaning);
+  return transport_->send(post_array("/transfer", std::move(query), encode_npy(values, columns)));
 }
 
 std::string Client::scene(const std::string& src, const std::string& tgt, const MatchOptions& options) const {

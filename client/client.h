@@ -99,6 +99,11 @@ class Client {
   [[nodiscard]] std::vector<double> transfer(const std::string& src, const std::string& tgt, std::span<const double> values,
                                              std::size_t columns = 1, const std::string& interpolation = "linear",
                                              const MatchOptions& options = {}) const;
+  /// The same as the bytes of a file: "ply" or "glb", the source's mesh with what was carried, or "png", a picture of both shapes.
+  /// `meaning` says what the columns are: "color" from 0 to 1, "texture", "value" or "weights".
+  [[nodiscard]] std::string transfer_file(const std::string& src, const std::string& tgt, std::span<const double> values,
+                                          std::size_t columns, const std::string& format, const std::string& meaning,
+                                          const MatchOptions& options = {}) const;
   /// Both meshes in corresponding colours: one GLB file.
   [[nodiscard]] std::string scene(const std::string& src, const std::string& tgt, const MatchOptions& options = {}) const;
 

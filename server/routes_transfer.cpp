@@ -1,11 +1,15 @@
 // POST /transfer: what is known at the vertices of one shape, carried along the map to the vertices of another.
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "engine/io/array_reader.h"
 #include "engine/io/array_writer.h"
+#include "engine/io/map_picture.h"
 #include "engine/io/transfer.h"
+#include "engine/io/vertex_data.h"
 #include "server/match_query.h"
+#include "server/negotiation.h"
 #include "server/problem.h"
 #include "server/request_parameters.h"
 #include "server/server_context.h"
@@ -14,6 +18,8 @@ namespace spherematch {
 
 namespace {
 
+constexpr std::array<Representation, 4> representations{
+    {{"npy", "application/x-npy"}, {"ply", "application/x-ply"}, {"glb", "model/gltf-binary"}, {"png", "image/png"}}};
 constexpr std::array<std::string_view, 2> interpolations{"linear", "nearest"};  // in the order of Interpolation
 
 /// @throws ProblemError(invalid_parameter) also for what the array cannot be
@@ -51,9 +57,35 @@ void check_sizes(const ServerContext& context, const MatchQuery& query, const Ar
   }
 }
 
+/// Nothing where the answer is the array itself.
+std::optional<Meaning> meaning_of(const RequestParameters& parameters, std::string_view format, const Array& array) {
+  const auto name = parameters.text("as");
+  if (format == "npy") {
+    if (name) throw ProblemError(api::Code::invalid_parameter, "as: applies to ply, glb and png only");
+    return std::nullopt;
+  }
+  if (!name) return likely_meaning(array);
+  const std::optional<Meaning> meaning = meaning_named(*name);
+  if (!meaning) throw ProblemError(api::Code::invalid_parameter, "as: is not one of color, texture, label, value, weights");
+  check_meaning(*meaning, array);
+  return meaning;
+}
+
+/// Source and target as they were prepared and the source as it was uploaded, as far as the format needs them.
+std::string encode(const ServerContext& context, const MatchQuery& query, std::string_view format, const std::optional<Meaning>& meaning,
+                   const Array& array, const Array& carried, const Correspondence& map) {
+  if (!meaning) return encode_npy(carried);
+  const VertexDataPair data = vertex_data(*meaning, carried, array, map);
+  if (format == "png") return encode_png(data, map, context.shapes.load(query.src)->surface, context.shapes.load(query.tgt)->surface);
+  const PolygonMesh mesh = context.shapes.load_mesh(query.src);
+  return format == "ply" ? encode_ply(mesh, data.source) : encode_glb(mesh, data.source);
+}
+
 HttpResponse post_transfer(const ServerContext& context, HttpRequest& request) {
-  const RequestParameters parameters(request, {"src", "tgt", "interp", "wait", "cache", "method", "refine", "orientation", "hints"});
+  const RequestParameters parameters(request,
+                                     {"src", "tgt", "interp", "format", "as", "wait", "cache", "method", "refine", "orientation", "hints"});
   const MatchQuery query = match_query_of(parameters);
+  const Representation& chosen = choose_representation(parameters.text("format"), request.header("accept"), representations);
   const MatchService::Cache cache = cache_of(parameters);
   const auto wait = parameters.seconds("wait", 30, max_wait_seconds);
   context.shapes.require_usable(query.src);
@@ -62,15 +94,17 @@ HttpResponse post_transfer(const ServerContext& context, HttpRequest& request) {
   const RequestBody body = std::exchange(request.body, {});  // its permit counts for the array
   const Array array = decode_npy(body.bytes);
   const Interpolation interpolation = interpolation_of(parameters, array);
+  const std::optional<Meaning> meaning = meaning_of(parameters, chosen.format, array);
   check_sizes(context, query, array);
   await_shapes(context.shapes, query, wait);
   const MatchAnswer answer = context.match_service.get(query, cache);
 
   const Gate::Permit permit = context.matches.enter();
-  return {.status = 200,
-          .content_type = "application/x-npy",
-          .body = encode_npy(transfer(array, answer.result->map, interpolation)),
-          .headers = {{"Server-Timing", server_timing(answer)}, {"Cache-Control", "no-store"}}};
+  return {
+      .status = 200,
+      .content_type = std::string(chosen.media_type),
+      .body = encode(context, query, chosen.format, meaning, array, transfer(array, answer.result->map, interpolation), answer.result->map),
+      .headers = {{"Server-Timing", server_timing(answer)}, {"Cache-Control", "no-store"}}};
 }
 
 }  // namespace

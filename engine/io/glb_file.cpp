@@ -67,17 +67,44 @@ void append_item(std::string& list, const std::string& item) { list.append(list.
 
 }  // namespace
 
+int GlbFile::add_view(std::string_view bytes, const std::string& target) {
+  numbers_.append((4 - numbers_.size() % 4) % 4, '\0');
+  append_item(views_, R"({"buffer":0,"byteOffset":)" + std::to_string(numbers_.size()) + R"(,"byteLength":)" +
+                          std::to_string(bytes.size()) + target + '}');
+  numbers_.append(bytes);
+  return view_count_++;
+}
+
 template <typename Number>
 int GlbFile::add_numbers(std::span<const Number> numbers, std::size_t count, Use use, const std::string& format) {
-  append_item(views_, R"({"buffer":0,"byteOffset":)" + std::to_string(numbers_.size()) + R"(,"byteLength":)" +
-                          std::to_string(numbers.size_bytes()) + R"(,"target":)" + std::to_string(static_cast<int>(use)) + '}');
-  append_item(accessors_,
-              R"({"bufferView":)" + std::to_string(accessor_count_) + R"(,"count":)" + std::to_string(count) + ',' + format + '}');
-  numbers_.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
+  const std::string_view bytes(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
+  const int view = add_view(bytes, R"(,"target":)" + std::to_string(static_cast<int>(use)));
+  append_item(accessors_, R"({"bufferView":)" + std::to_string(view) + R"(,"count":)" + std::to_string(count) + ',' + format + '}');
   return accessor_count_++;
 }
 
 void GlbFile::add(const PolygonMesh& mesh, const Colors* colors, const Node& node) {
+  std::string attribute;
+  if (colors != nullptr) {
+    Rgba rgba = Rgba::Constant(colors->rows(), 4, 255);
+    rgba.leftCols<3>() = *colors;
+    const int color = add_numbers(span_of(rgba), static_cast<std::size_t>(rgba.rows()), Use::vertices,
+                                  R"("componentType":5121,"normalized":true,"type":"VEC4")");
+    attribute = R"("COLOR_0":)" + std::to_string(color);
+  }
+  add_mesh(mesh, node, attribute, 0);
+}
+
+void GlbFile::add(const PolygonMesh& mesh, const TextureCoordinates& coordinates, const std::string& png, const Node& node) {
+  const int place = add_numbers(span_of(coordinates), static_cast<std::size_t>(coordinates.rows()), Use::vertices,
+                                R"("componentType":5126,"type":"VEC2")");
+  append_item(images_, R"({"mimeType":"image/png","bufferView":)" + std::to_string(add_view(png, "")) + '}');
+  materials_ += R"(,{"doubleSided":true,"pbrMetallicRoughness":{"baseColorTexture":{"index":)" + std::to_string(image_count_++) +
+                R"(},"metallicFactor":0,"roughnessFactor":0.8}})";
+  add_mesh(mesh, node, R"("TEXCOORD_0":)" + std::to_string(place), image_count_);
+}
+
+void GlbFile::add_mesh(const PolygonMesh& mesh, const Node& node, const std::string& attribute, int material) {
   // Where float does not do, the node takes the place and the size, and the positions are relative to them.
   const Box box = box_of(mesh.vertices);
   Points positions = mesh.vertices;
@@ -94,18 +121,12 @@ void GlbFile::add(const PolygonMesh& mesh, const Colors* colors, const Node& nod
   const auto n = static_cast<std::size_t>(floats.rows());
   const int position = add_numbers(span_of(floats), n, Use::vertices, R"("componentType":5126,"type":"VEC3",)" + bounds(floats));
   const int normal = add_numbers(span_of(vertex_normals(mesh, positions)), n, Use::vertices, R"("componentType":5126,"type":"VEC3")");
-  std::string attributes = R"("POSITION":)" + std::to_string(position) + R"(,"NORMAL":)" + std::to_string(normal);
-  if (colors != nullptr) {
-    Rgba rgba = Rgba::Constant(colors->rows(), 4, 255);
-    rgba.leftCols<3>() = *colors;
-    const int color = add_numbers(span_of(rgba), n, Use::vertices, R"("componentType":5121,"normalized":true,"type":"VEC4")");
-    attributes += R"(,"COLOR_0":)" + std::to_string(color);
-  }
   const std::vector<std::uint32_t> triangles = fan_triangles(mesh, positions);
   const int indices =
       add_numbers(std::span<const std::uint32_t>(triangles), triangles.size(), Use::triangles, R"("componentType":5125,"type":"SCALAR")");
-  append_item(meshes_,
-              R"({"primitives":[{"attributes":{)" + attributes + R"(},"indices":)" + std::to_string(indices) + R"(,"material":0}]})");
+  append_item(meshes_, R"({"primitives":[{"attributes":{"POSITION":)" + std::to_string(position) + R"(,"NORMAL":)" +
+                           std::to_string(normal) + (attribute.empty() ? "" : ",") + attribute + R"(},"indices":)" +
+                           std::to_string(indices) + R"(,"material":)" + std::to_string(material) + "}]}");
 
   std::string item = R"({"mesh":)" + std::to_string(mesh_count_++);
   if (!node.name.empty()) item += R"(,"name":)" + json_text(node.name);
@@ -115,10 +136,14 @@ void GlbFile::add(const PolygonMesh& mesh, const Colors* colors, const Node& nod
 std::string GlbFile::json() const {
   std::string roots;
   for (int i = 0; i < mesh_count_; ++i) append_item(roots, std::to_string(i));
+  std::string textures;
+  for (int i = 0; i < image_count_; ++i) append_item(textures, R"({"source":)" + std::to_string(i) + '}');
+  const std::string pictures = images_.empty() ? "" : R"("images":[)" + images_ + R"(],"textures":[)" + textures + "],";
   return R"({"asset":{"version":"2.0","generator":"spherematch"},"scene":0,"scenes":[{"nodes":[)" + roots + R"(]}],"nodes":[)" + nodes_ +
          R"(],"meshes":[)" + meshes_ +
-         R"(],"materials":[{"doubleSided":true,"pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0.8}}],"accessors":[)" +
-         accessors_ + R"(],"bufferViews":[)" + views_ + R"(],"buffers":[{"byteLength":)" + std::to_string(numbers_.size()) + "}]}";
+         R"(],"materials":[{"doubleSided":true,"pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0.8}})" + materials_ + "]," +
+         pictures + R"("accessors":[)" + accessors_ + R"(],"bufferViews":[)" + views_ + R"(],"buffers":[{"byteLength":)" +
+         std::to_string(numbers_.size()) + "}]}";
 }
 
 std::string GlbFile::bytes() const { return container(json(), numbers_); }

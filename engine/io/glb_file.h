@@ -4,11 +4,15 @@
 #include <Eigen/Core>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "engine/io/map_mesh.h"
 #include "engine/io/polygon_mesh.h"
 
 namespace spherematch {
+
+/// u, v for each vertex, (n, 2), v downward as glTF has it.
+using TextureCoordinates = Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
 /// Not thread-safe.
 class GlbFile {
@@ -22,6 +26,9 @@ class GlbFile {
   /// where that would blur the mesh, the positions are relative to its centre and the node has place and size.
   void add(const PolygonMesh& mesh, const Colors* colors, const Node& node);
 
+  /// The same with TEXCOORD_0 in place of colours, and a material of its own with this picture, the bytes of a PNG file.
+  void add(const PolygonMesh& mesh, const TextureCoordinates& coordinates, const std::string& png, const Node& node);
+
   /// The whole file. At least one mesh must have been added.
   [[nodiscard]] std::string bytes() const;
 
@@ -31,14 +38,22 @@ class GlbFile {
   /// Appends an accessor and returns its number. `format` is its componentType and type, and what else it has.
   template <typename Number>
   int add_numbers(std::span<const Number> numbers, std::size_t count, Use use, const std::string& format);
+  /// The number of a new view of these bytes; `target` is what it has besides its place.
+  int add_view(std::string_view bytes, const std::string& target);
+  /// `attribute` is one more member of the primitive's attributes, or empty.
+  void add_mesh(const PolygonMesh& mesh, const Node& node, const std::string& attribute, int material);
   [[nodiscard]] std::string json() const;
 
   std::string numbers_;
   std::string views_;
   std::string accessors_;
+  std::string images_;
+  std::string materials_;
   std::string meshes_;
   std::string nodes_;
+  int view_count_ = 0;
   int accessor_count_ = 0;
+  int image_count_ = 0;
   int mesh_count_ = 0;
 };
 

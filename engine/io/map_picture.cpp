@@ -35,19 +35,16 @@ Points on_surface(const Points& values, const Surface& surface) {
   return result;
 }
 
-}  // namespace
-
-std::string encode_png(const Correspondence& map, const Surface& source, const Surface& target) {
+/// The surfaces at unit area, the target turned as the source is seen. `images` and `left_paint` speak of the source's surface,
+/// `right_paint` of the target's.
+std::string draw_pair(const Surface& source, const Surface& target, const Points& images, Paint kind, const Points& left_paint,
+                      const Points& right_paint) {
   const TriMesh left = with_unit_area(source.mesh);
   const TriMesh right = with_unit_area(target.mesh);
-  const Points images = on_surface(image_points(map, target), source);
-  const Points left_paint = normalized_coordinates(images, target);
-  const Points right_paint = normalized_coordinates(target.mesh.vertices, target);
-
   const Pose pose = upright_pose(left);
   const Eigen::Matrix3d rotation = best_rotation(images, left.vertices, vertex_areas(left));
-  Scene left_scene{left, left_paint, view_axes(pose), {}, 1};
-  Scene right_scene{right, right_paint, view_axes(corresponding_pose(pose, rotation)), {}, 1};
+  Scene left_scene{left, left_paint, view_axes(pose), {}, 1, kind};
+  Scene right_scene{right, right_paint, view_axes(corresponding_pose(pose, rotation)), {}, 1, kind};
   const double larger = std::max(center_view(left_scene), center_view(right_scene));
   left_scene.pixels_per_unit = right_scene.pixels_per_unit = (side - 2 * margin) / larger;
 
@@ -55,6 +52,20 @@ std::string encode_png(const Correspondence& map, const Surface& source, const S
   render(left_scene, image, 0);
   render(right_scene, image, side);
   return png_of(image);
+}
+
+}  // namespace
+
+std::string encode_png(const Correspondence& map, const Surface& source, const Surface& target) {
+  const Points images = on_surface(image_points(map, target), source);
+  return draw_pair(source, target, images, Paint::color, normalized_coordinates(images, target),
+                   normalized_coordinates(target.mesh.vertices, target));
+}
+
+std::string encode_png(const VertexDataPair& data, const Correspondence& map, const Surface& source, const Surface& target) {
+  const Paint kind = data.source.meaning == Meaning::texture ? Paint::checker : Paint::color;
+  return draw_pair(source, target, on_surface(image_points(map, target), source), kind, on_surface(data.source.paint, source),
+                   on_surface(data.target.paint, target));
 }
 
 }  // namespace spherematch

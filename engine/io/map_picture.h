@@ -5,6 +5,7 @@
 
 #include "engine/data/correspondence.h"
 #include "engine/data/surface.h"
+#include "engine/io/vertex_data.h"
 
 namespace spherematch {
 
@@ -14,5 +15,10 @@ namespace spherematch {
 /// 30 MB and, for the time of the call, a few times the memory of both meshes.
 /// @throws std::invalid_argument when map and source differ in their number of vertices, and as image_points()
 [[nodiscard]] std::string encode_png(const Correspondence& map, const Surface& source, const Surface& target);
+
+/// The same picture in the colours of what is known at the vertices of both: what was carried along the map on the source, what it was
+/// carried from on the target. Texture coordinates are shown by a checkerboard.
+/// @throws std::invalid_argument when data and surface differ in their number of vertices, and as above
+[[nodiscard]] std::string encode_png(const VertexDataPair& data, const Correspondence& map, const Surface& source, const Surface& target);
 
 }  // namespace spherematch

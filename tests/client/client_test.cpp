@@ -66,6 +66,16 @@ TEST_F(ClientTest, AThumbnailIsAskedForInItsSize) {
   EXPECT_EQ(client().thumbnail("x"), "picture of 256");
 }
 
+TEST_F(ClientTest, WhatIsCarriedComesAsAFileToo) {
+  server.Post("/transfer", [](const auto& request, auto& response) {
+    EXPECT_TRUE(request.body.starts_with("\x93NUMPY"));
+    EXPECT_NE(request.body.find("(2, 2)"), std::string::npos);
+    response.set_content(request.get_param_value("format") + " of " + request.get_param_value("as"), "image/png");
+  });
+  start();
+  EXPECT_EQ(client().transfer_file("a", "b", std::vector<double>{0, 0, 1, 1}, 2, "png", "texture"), "png of texture");
+}
+
 TEST_F(ClientTest, RefusalsThatPassAreTriedAgain) {
   server.Get("/healthz", [&](const auto&, auto& response) {
     if (++calls < 3) {

@@ -113,6 +113,9 @@ class OpenApiTest(support.TestCase):
         for array in (np.arange(162.0), np.zeros((162, 4), 'u1'), np.zeros(3)):
             call('post', '/transfer', '/transfer?' + pair, npy(array))
         call('post', '/transfer', '/transfer?' + pair, b'x')
+        for rest in ('format=ply', 'format=glb&as=value', 'format=png', 'format=png&as=x'):
+            call('post', '/transfer', f'/transfer?{pair}&{rest}', npy(np.arange(162)))
+        call('post', '/transfer', '/transfer?' + pair, npy(np.arange(162)), {'Accept': 'video/mp4'})
         scene = call('get', '/scene', '/scene?' + pair)
         call('get', '/scene', '/scene?' + pair, headers={'If-None-Match': scene.headers['ETag']})
 

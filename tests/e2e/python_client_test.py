@@ -100,6 +100,19 @@ class PythonClientTest(support.TestCase):
         self.assertEqual(self.client.transfer(self.a, self.b, labels).dtype, np.uint8)
         self.assertTrue((self.client.transfer(self.a, self.b, labels) == labels[result.vertex]).all())
 
+    def test_transfer_file(self):
+        labels = np.arange(162) % 3
+        self.assertTrue(self.client.transfer_file(self.a, self.b, labels, 'png').startswith(b'\x89PNG'))
+        ply = self.client.transfer_file(self.a, self.b, labels, 'ply', meaning='label')
+        header, rows = ply.split(b'end_header\n', 1)
+        self.assertIn(b'property int label', header)
+        record = np.dtype([('place', '<f8', 3), ('color', 'u1', 3), ('label', '<i4')] if b'double' in header
+                          else [('place', '<f4', 3), ('color', 'u1', 3), ('label', '<i4')])
+        carried = np.frombuffer(rows[:162 * record.itemsize], record)['label']
+        self.assertTrue((carried == labels[self.client.match(self.a, self.b).vertex]).all())
+        with self.assertRaises(spherematch.ProblemError):
+            self.client.transfer_file(self.a, self.b, labels, 'glb', meaning='texture')
+
     def test_evaluation(self):
         figures = self.client.evaluate(self.a, self.b, truth='identity')
         self.assertEqual(figures['geodesic']['scored'], 162)

@@ -104,11 +104,45 @@ TEST_F(RoutesTransfer, TheMatchIsComputedOnceAndItsParametersCount) {
   transfer(body, {{"orientation", "any"}});
   transfer(body, {{"hints", "0:1"}});
   EXPECT_EQ(engine.matches, 6);
-  for (const auto& [name, value] :
-       {std::pair("interp", "cubic"), std::pair("method", "x"), std::pair("refine", "x"), std::pair("orientation", "x"),
-        std::pair("cache", "x"), std::pair("hints", "x"), std::pair("wait", "x"), std::pair("both", "yes"), std::pair("format", "npy")}) {
+  for (const auto& [name, value] : {std::pair("interp", "cubic"), std::pair("method", "x"), std::pair("refine", "x"),
+                                    std::pair("orientation", "x"), std::pair("cache", "x"), std::pair("hints", "x"), std::pair("wait", "x"),
+                                    std::pair("both", "yes"), std::pair("format", "json"), std::pair("as", "value")}) {
     EXPECT_EQ(problem_code(transfer(body, {{name, value}})), api::Code::invalid_parameter) << name;
   }
+}
+
+TEST_F(RoutesTransfer, AMeshOrAPictureShowsWhatWasCarried) {
+  const std::string body = npy<std::int32_t>("<i4", {5}, {5, 6, 7, 8, 9});
+  for (const auto& [format, type, beginning] :
+       {std::tuple("ply", "application/x-ply", "ply\n"), std::tuple("glb", "model/gltf-binary", "glTF"),
+        std::tuple("png", "image/png", "\x89PNG")}) {
+    const HttpResponse response = transfer(body, {{"format", format}});
+    EXPECT_EQ(response.status, 200) << response.body;
+    EXPECT_EQ(response.content_type, type);
+    EXPECT_TRUE(response.body.starts_with(beginning)) << format;
+    const HttpResponse by_header = call({.method = "POST",
+                                         .path = "/transfer",
+                                         .query = {{"src", src}, {"tgt", tgt}},
+                                         .body = body,
+                                         .file_name = {},
+                                         .headers = {{"accept", type}}});
+    EXPECT_EQ(by_header.body, response.body);
+    EXPECT_EQ(transfer(body, {{"format", format}, {"as", "label"}}).body, response.body);
+    EXPECT_NE(transfer(body, {{"format", format}, {"as", "value"}}).body, response.body);
+  }
+  EXPECT_NE(transfer(body, {{"format", "ply"}}).body.find("property int label\n"), std::string::npos);
+  EXPECT_EQ(engine.matches, 1);
+}
+
+TEST_F(RoutesTransfer, WhatCannotBeShownIsRefusedBeforeTheMatch) {
+  const std::string numbers = npy<std::int32_t>("<i4", {5}, {5, 6, 7, 8, 9});
+  for (const char* meaning : {"color", "texture", "weights", "colour", ""})
+    EXPECT_EQ(problem_code(transfer(numbers, {{"format", "png"}, {"as", meaning}})), api::Code::invalid_parameter) << meaning;
+  const std::string wide = npy<std::int32_t>("<i4", {5, 2}, std::vector<std::int32_t>(10));
+  const HttpResponse refused = transfer(wide, {{"format", "ply"}});
+  EXPECT_EQ(problem_code(refused), api::Code::invalid_parameter);
+  EXPECT_NE(refused.body.find("(5, 2)"), std::string::npos) << refused.body;
+  EXPECT_EQ(engine.matches, 0);
 }
 
 TEST_F(RoutesTransfer, ShapesMustBeThereAndReady) {

@@ -218,10 +218,15 @@ class Client:
 
     def transfer(self, source, target, values, interp=None, **options):
         """One row of `values` for each target vertex becomes one for each source vertex: skin weights, labels, colours, fields."""
-        query = {'src': _id(source), 'tgt': _id(target), 'interp': interp, 'wait': _LONGEST_WAIT, **options}
+        return meshes.load(self.transfer_file(source, target, values, 'npy', interp=interp, **options))
+
+    def transfer_file(self, source, target, values, format, meaning=None, interp=None, **options):
+        """The same as the bytes of a file: ply or glb, the source's mesh with what was carried, or png, a picture of both shapes.
+        `meaning` says what the columns are: 'color', 'texture', 'label', 'value' or 'weights'."""
+        query = {'src': _id(source), 'tgt': _id(target), 'interp': interp, 'format': format, 'as': meaning, 'wait': _LONGEST_WAIT, **options}
         if 'hints' in options:
             query['hints'] = _hints(options['hints'])
-        return meshes.load(self._http.request('POST', '/transfer', query, meshes.npy_bytes(values), extra_time=_LONGEST_WAIT)[2])
+        return self._http.request('POST', '/transfer', query, meshes.npy_bytes(values), extra_time=_LONGEST_WAIT)[2]
 
     def scene(self, source, target, **options):
         """Both meshes in corresponding colours, as the bytes of one GLB file."""

@@ -10,27 +10,11 @@
 
 #include "engine/data/error.h"
 #include "engine/io/map_mesh.h"
+#include "tests/engine/io/arrays.h"
 #include "tests/engine/io/some_maps.h"
 
 namespace spherematch::test {
 namespace {
-
-/// Numbers of one type as an array of this shape.
-template <typename Number>
-Array array_of(const std::vector<Number>& numbers, const std::string& dtype, std::vector<std::int64_t> shape) {
-  Array array{.dtype = dtype,
-              .kind = dtype[1],
-              .item_bytes = sizeof(Number),
-              .big_endian = dtype[0] == '>',
-              .shape = std::move(shape),
-              .bytes = {}};
-  for (const Number number : numbers) {
-    auto raw = std::bit_cast<std::array<char, sizeof(Number)>>(number);
-    if (array.big_endian) std::reverse(raw.begin(), raw.end());
-    array.bytes.append(raw.data(), raw.size());
-  }
-  return array;
-}
 
 template <typename Number>
 std::vector<Number> numbers_of(const Array& array) {
