@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::array<Representation, 4> representations{
     {{"npy", "application/x-npy"}, {"ply", "application/x-ply"}, {"glb", "model/gltf-binary"}, {"png", "image/png"}}};
+constexpr std::array<std::string_view, 5> meaning_names{"color", "texture", "label", "value", "weights"};
 constexpr std::array<std::string_view, 2> interpolations{"linear", "nearest"};  // in the order of Interpolation
 
 /// @throws ProblemError(invalid_parameter) also for what the array cannot be
@@ -60,13 +61,12 @@ void check_sizes(const ServerContext& context, const MatchQuery& query, const Ar
 /// Nothing where the answer is the array itself.
 std::optional<Meaning> meaning_of(const RequestParameters& parameters, std::string_view format, const Array& array) {
   const auto name = parameters.text("as");
+  const std::optional<Meaning> meaning = name ? meaning_named(parameters.choice("as", meaning_names)) : std::nullopt;
   if (format == "npy") {
     if (name) throw ProblemError(api::Code::invalid_parameter, "as: applies to ply, glb and png only");
     return std::nullopt;
   }
-  if (!name) return likely_meaning(array);
-  const std::optional<Meaning> meaning = meaning_named(*name);
-  if (!meaning) throw ProblemError(api::Code::invalid_parameter, "as: is not one of color, texture, label, value, weights");
+  if (!meaning) return likely_meaning(array);
   check_meaning(*meaning, array);
   return meaning;
 }
