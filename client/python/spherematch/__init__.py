@@ -4,7 +4,7 @@
     import spherematch
 
     client = spherematch.Client('http://127.0.0.1:8080')
-    source = client.upload('left.obj')                   # a file, bytes, or (vertices, faces)
+    source = client.upload('left.obj')                   # a file, bytes, a mesh of trimesh or meshio, or (vertices, faces)
     target = client.upload((vertices, faces), name='right')
     result = client.match(source, target)
     result.vertex                                        # for each source vertex the nearest target vertex, -1 where dropped

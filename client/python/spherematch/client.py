@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 
-from . import meshes
+from . import interop, meshes
 from .errors import JobFailed, TransportError
 from .transport import Transport
 
@@ -97,8 +97,9 @@ class Client:
     # Shapes
 
     def upload(self, mesh, name=None, repair='fill', tags=None, simplify=None, wait=600.0):
-        """Uploads a mesh, given as a path, as bytes or as (vertices, faces), and waits up to `wait` seconds for its preparation. The same
-        mesh twice is the same shape. Raises JobFailed where it cannot be prepared; check `state` where the wait may be too short."""
+        """Uploads a mesh, given as a path, as bytes, as a mesh of trimesh or meshio or as (vertices, faces), and waits up to `wait` seconds
+        for its preparation. The same mesh twice is the same shape. Raises JobFailed where it cannot be prepared; check `state` where the
+        wait may be too short."""
         data, file_name = meshes.mesh_bytes(mesh)
         query = {'name': file_name if name is None else name, 'repair': repair, 'wait': min(wait, _LONGEST_WAIT),
                  'tags': ','.join(tags) if tags else None, 'simplify': simplify}
@@ -141,6 +142,19 @@ class Client:
     def mesh(self, shape, format='original'):
         """The bytes of the mesh, as uploaded or as off, obj, ply, stl or glb."""
         return self._http.request('GET', f'/shapes/{_id(shape)}/mesh', {'format': format})[2]
+
+    def arrays(self, shape):
+        """The uploaded mesh as (vertices, faces): float64 (n, 3) and integers (m, 3), polygons as fans of triangles."""
+        vertices, blocks = meshes.read_ply(self.mesh(shape, 'ply'))
+        return vertices, interop.triangles_of(blocks)
+
+    def trimesh(self, shape):
+        """The uploaded mesh as a trimesh.Trimesh, which must be installed; the numbers of the vertices stay."""
+        return interop.make_trimesh(*meshes.read_ply(self.mesh(shape, 'ply')))
+
+    def meshio(self, shape):
+        """The uploaded mesh as a meshio.Mesh, which must be installed."""
+        return interop.make_meshio(*meshes.read_ply(self.mesh(shape, 'ply')))
 
     def thumbnail(self, shape, size=256):
         """A picture of the uploaded mesh, size x size pixels: the bytes of a PNG file with a transparent background."""
@@ -227,6 +241,15 @@ class Client:
         if 'hints' in options:
             query['hints'] = _hints(options['hints'])
         return self._http.request('POST', '/transfer', query, meshes.npy_bytes(values), extra_time=_LONGEST_WAIT)[2]
+
+    def carry(self, source, target, **options):
+        """A copy of the mesh `source` with all that the mesh `target` has at its vertices, both of trimesh or of meshio: point data;
+        or vertex attributes and vertex colours or texture coordinates. Uploads what the server lacks. Options are those of transfer()."""
+        for mesh in (source, target):
+            if not (interop.is_trimesh(mesh) or interop.is_meshio(mesh)):
+                raise TypeError(f'{type(mesh).__name__} is no mesh of trimesh or meshio')
+        shapes = self.upload(source), self.upload(target)
+        return interop.carried(source, target, lambda values: self.transfer(*shapes, values, **options))
 
     def scene(self, source, target, **options):
         """Both meshes in corresponding colours, as the bytes of one GLB file."""
