@@ -34,12 +34,13 @@ TriMesh visible_part(const PolygonMesh& mesh) {
 
 }  // namespace
 
-std::string encode_thumbnail(const PolygonMesh& mesh, int size) {
+std::string encode_thumbnail(const PolygonMesh& mesh, int size, const std::optional<Viewpoint>& view) {
   if (size < least_thumbnail || size > largest_thumbnail) throw std::invalid_argument("the picture has no such size");
   const TriMesh shape = with_unit_area(visible_part(mesh));
   if (!shape.vertices.allFinite()) throw std::invalid_argument("the mesh has no area");
   const Points paint = slate.replicate(shape.vertex_count(), 1);
-  Scene scene{.mesh = shape, .paint = paint, .axes = view_axes(upright_pose(shape)), .center = {}, .pixels_per_unit = 1, .two_sided = true};
+  const Pose pose = view ? Pose{view->up, view->front} : upright_pose(shape);
+  Scene scene{.mesh = shape, .paint = paint, .axes = view_axes(pose), .center = {}, .pixels_per_unit = 1, .two_sided = true};
   const int margin = std::max(1, size / 32);
   scene.pixels_per_unit = (size - 2 * margin) / center_view(scene);
   Image image(size, size, Background::transparent);

@@ -40,6 +40,20 @@ TEST_F(RoutesThumbnail, OtherSizesAndParametersAreRefused) {
   EXPECT_EQ(with_header(id, "accept", "image/avif,image/webp,*/*;q=0.8").status, 200);
 }
 
+TEST_F(RoutesThumbnail, UpAndFrontSayFromWhere) {
+  const std::string id = ready("sphere 1");
+  std::set<std::string> tags{header(get(path(id)), "ETag")};
+  EXPECT_EQ(get(path(id), {{"up", "auto"}, {"front", "auto"}}).body, get(path(id)).body);
+  for (const auto& [up, front] : {std::pair("y", "z"), std::pair("-y", "z"), std::pair("z", "-x"), std::pair("x", "-y")}) {
+    const HttpResponse response = get(path(id), {{"up", up}, {"front", front}});
+    EXPECT_EQ(response.status, 200) << response.body;
+    EXPECT_TRUE(tags.insert(header(response, "ETag")).second);
+  }
+  for (const auto& [up, front] :
+       {std::pair("y", "-y"), std::pair("z", "z"), std::pair("auto", "x"), std::pair("x", "auto"), std::pair("w", "x")})
+    EXPECT_EQ(problem_code(get(path(id), {{"up", up}, {"front", front}})), api::Code::invalid_parameter) << up << front;
+}
+
 TEST_F(RoutesThumbnail, IsThereBeforeThePreparationAndAfterItFailed) {
   engine.hold_preparation = true;
   const std::string id = shape(post("sphere 1", {})).id;

@@ -156,9 +156,10 @@ class Client:
         """The uploaded mesh as a meshio.Mesh, which must be installed."""
         return interop.make_meshio(*meshes.read_ply(self.mesh(shape, 'ply')))
 
-    def thumbnail(self, shape, size=256):
-        """A picture of the uploaded mesh, size x size pixels: the bytes of a PNG file with a transparent background."""
-        return self._http.request('GET', f'/shapes/{_id(shape)}/thumbnail.png', {'size': size})[2]
+    def thumbnail(self, shape, size=256, up=None, front=None):
+        """A picture of the uploaded mesh, size x size pixels: the bytes of a PNG file with a transparent background. `up` and `front`,
+        both or none, are directions such as 'y' and '-x': which is upward, and from where to look."""
+        return self._http.request('GET', f'/shapes/{_id(shape)}/thumbnail.png', {'size': size, 'up': up, 'front': front})[2]
 
     def sphere(self, shape):
         """The spherical parametrisation: float64 (n, 3), not-a-number for dropped vertices."""

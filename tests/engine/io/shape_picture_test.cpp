@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -65,6 +66,23 @@ TEST(ShapePicture, TheEdgeIsSmooth) {
     }
   }
   EXPECT_GT(partly, 150);
+}
+
+TEST(ShapePicture, AViewpointTurnsThePicture) {
+  TriMesh stick = transformed(icosphere(3), 1, Eigen::Vector3d(1, 0.2, 0.2).asDiagonal().toDenseMatrix(), Eigen::Vector3d::Zero());
+  const auto width_and_height = [&](const Eigen::Vector3d& up, const Eigen::Vector3d& front) {
+    Image image = decoded_png(encode_thumbnail(polygons(stick), 64, Viewpoint{up, front}), Background::transparent);
+    std::array<int, 2> seen{0, 0};
+    for (int i = 0; i < 64; ++i) {
+      seen[0] += image.at(i, 32)[3] > 0;
+      seen[1] += image.at(32, i)[3] > 0;
+    }
+    return seen;
+  };
+  const Eigen::Vector3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  EXPECT_GT(width_and_height(y, z)[0], 3 * width_and_height(y, z)[1]);
+  EXPECT_GT(width_and_height(x, z)[1], 3 * width_and_height(x, z)[0]);
+  EXPECT_LT(width_and_height(y, x)[0], 2 * width_and_height(y, x)[1]);
 }
 
 TEST(ShapePicture, EverySizeInRangeAndNoOther) {
