@@ -95,6 +95,12 @@ void GlbFile::add(const PolygonMesh& mesh, const Colors* colors, const Node& nod
   add_mesh(mesh, node, attribute, 0);
 }
 
+void GlbFile::add(const PolygonMesh& mesh, const LinearColors& colors, const Node& node) {
+  const int color = add_numbers(span_of(colors), static_cast<std::size_t>(colors.rows()), Use::vertices,
+                                R"("componentType":5123,"normalized":true,"type":"VEC4")");
+  add_mesh(mesh, node, R"("COLOR_0":)" + std::to_string(color), 0);
+}
+
 void GlbFile::add(const PolygonMesh& mesh, const TextureCoordinates& coordinates, const std::string& png, const Node& node) {
   const int place = add_numbers(span_of(coordinates), static_cast<std::size_t>(coordinates.rows()), Use::vertices,
                                 R"("componentType":5126,"type":"VEC2")");

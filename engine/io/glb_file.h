@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +15,9 @@ namespace spherematch {
 /// u, v for each vertex, (n, 2), v downward as glTF has it.
 using TextureCoordinates = Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
+/// One colour for each vertex, (n, 4), in linear light as glTF has it: red, green, blue, alpha, from 0 to 65535.
+using LinearColors = Eigen::Matrix<std::uint16_t, Eigen::Dynamic, 4, Eigen::RowMajor>;
+
 /// Not thread-safe.
 class GlbFile {
  public:
@@ -25,6 +29,9 @@ class GlbFile {
   /// Adds a node with the mesh: POSITION, NORMAL, the polygons triangulated, and COLOR_0 where there are colours. Numbers are float;
   /// where that would blur the mesh, the positions are relative to its centre and the node has place and size.
   void add(const PolygonMesh& mesh, const Colors* colors, const Node& node);
+
+  /// The same with colours in linear light.
+  void add(const PolygonMesh& mesh, const LinearColors& colors, const Node& node);
 
   /// The same with TEXCOORD_0 in place of colours, and a material of its own with this picture, the bytes of a PNG file.
   void add(const PolygonMesh& mesh, const TextureCoordinates& coordinates, const std::string& png, const Node& node);

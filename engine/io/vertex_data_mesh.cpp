@@ -1,5 +1,7 @@
 // Meshes with what is known at their vertices, as files.
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 #include "engine/io/float_range.h"
@@ -62,6 +64,18 @@ void append_data(std::string& bytes, const VertexData& data, Eigen::Index v) {
   }
 }
 
+/// From the numbers of screens (IEC 61966-2-1) to those of light, in which glTF has vertex colours.
+LinearColors linear_colors(const Colors& colors) {
+  std::array<std::uint16_t, 256> light{};
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    const double share = static_cast<double>(i) / 255;
+    light[i] = static_cast<std::uint16_t>(std::lround(65535 * (share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4))));
+  }
+  LinearColors linear = LinearColors::Constant(colors.rows(), 4, 65535);
+  linear.leftCols<3>() = colors.unaryExpr([&](std::uint8_t number) { return light[number]; });
+  return linear;
+}
+
 /// The checkerboard over the unit square, v upward.
 std::string checkerboard() {
   constexpr int side = 256;
@@ -104,8 +118,7 @@ std::string encode_glb(const PolygonMesh& mesh, const VertexData& data) {
   check_sizes(mesh, data);
   GlbFile file;
   if (data.meaning != Meaning::texture) {
-    const Colors colors = data.colors();
-    file.add(mesh, &colors, {});
+    file.add(mesh, linear_colors(data.colors()), {});
     return file.bytes();
   }
   // glTF counts v downward.

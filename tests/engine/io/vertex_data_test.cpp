@@ -199,7 +199,16 @@ TEST(VertexDataPly, ReadsBackAsTheUpload) {
 TEST(VertexDataGlb, HasColorsOrTextureCoordinatesWithAPicture) {
   const VertexData label = on_cube(Meaning::label, counted<std::int32_t>(8), "<i4", {8}).source;
   const Glb colored(encode_glb(cube(), label));
-  EXPECT_EQ(colored.colors()[4], label.colors()(1, 0));
+  EXPECT_EQ(colored.accessor("COLOR_0")["normalized"], true);
+  const std::vector<std::uint16_t> light = colored.numbers<std::uint16_t>("COLOR_0", "VEC4", 5123, 4);
+  for (Eigen::Index v = 0; v < 8; ++v) {
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      // sRGB is close to a power of 2.2, and the same at both ends.
+      const double shown = std::pow(light[static_cast<std::size_t>(4 * v + k)] / 65535.0, 1 / 2.2);
+      EXPECT_NEAR(shown, label.colors()(v, k) / 255.0, 0.04);
+    }
+    EXPECT_EQ(light[static_cast<std::size_t>(4 * v + 3)], 65535);
+  }
   EXPECT_FALSE(colored.json.contains("images"));
 
   const Glb glb(encode_glb(cube(), on_cube(Meaning::texture, counted<float>(16, 0.0625), "<f4", {8, 2}).source));
