@@ -64,8 +64,8 @@ struct VertexDataPair {
 /// for Blender and three.js and for MeshLab; a label as int `label`, a value as `quality`, weights as `weight_0`, `weight_1`, ...
 [[nodiscard]] std::string encode_ply(const PolygonMesh& mesh, const VertexData& data);
 
-/// glTF 2.0 in one binary file: POSITION, NORMAL and COLOR_0 in linear light, or in its place TEXCOORD_0 with a checkerboard as the texture's picture,
-/// polygons triangulated. Texture coordinates of vertices that have none are 0.
+/// glTF 2.0 in one binary file: POSITION, NORMAL and COLOR_0 in linear light, or in its place TEXCOORD_0 with a checkerboard as the
+/// texture's picture, polygons triangulated. Texture coordinates of vertices that have none are 0.
 [[nodiscard]] std::string encode_glb(const PolygonMesh& mesh, const VertexData& data);
 
 }  // namespace spherematch
