@@ -64,7 +64,7 @@ class LruCache {
   struct Entry {
     std::string key;
     Pointer value;
-    std::size_t bytes;
+    std::size_t bytes = 0;
   };
 
   void erase_locked(const std::string& key) {

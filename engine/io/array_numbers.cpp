@@ -14,7 +14,7 @@ namespace {
 
 template <typename Number>
 double load(const char* from, bool swapped) {
-  std::array<char, sizeof(Number)> raw;
+  std::array<char, sizeof(Number)> raw{};
   std::memcpy(raw.data(), from, raw.size());
   if (swapped) std::reverse(raw.begin(), raw.end());
   return static_cast<double>(Eigen::numext::bit_cast<Number>(raw));

@@ -182,7 +182,11 @@ class CliTest(support.TestCase):
 
         with open(self.place + '/list.txt', 'w') as file:
             file.write('\n'.join(map(str, [-1, *range(1, 162)])))
-        self.assertEqual(measured('ab.npz', '--truth', 'list.txt')['geodesic']['scored'], 161)
+        from_zero = measured('ab.npz', '--truth', 'list.txt')['geodesic']
+        self.assertEqual(from_zero['scored'], 161)
+        with open(self.place + '/list.map', 'w') as file:
+            file.write('\n'.join(map(str, [0, *range(2, 163)])))
+        self.assertEqual(measured('ab.npz', '--truth', 'list.map')['geodesic'], from_zero)
         with open(self.place + '/points.vts', 'w') as file:
             file.write('3\n8\n')
         at_points = measured('ab.npz', '--points', 'points.vts')['geodesic']
