@@ -16,7 +16,7 @@ USAGE
 }
 
 install_and_build() {
-  install_packages build
+  install_build_packages
   build_targets spherematch-server spherematch
 }
 
@@ -44,9 +44,9 @@ announce() {
 hint() {
   cat <<HINTS
 
-Spherematch serves at $1/
+The page, for dropping meshes on and looking at maps: $1/
 
-Upload a mesh, then match two by the ids of the answers:
+Or upload a mesh, then match two by the ids of the answers:
   curl --data-binary @mesh.off '$1/shapes?name=mesh&wait=60'
   curl '$1/match?src=ID&tgt=ID&format=npz' -o map.npz
 

@@ -7,12 +7,14 @@ cd "$(dirname "$(readlink -f "$0")")"
 
 if [ "${1:-}" = tidy ]; then
   shift
-  install_packages build tidy
+  install_build_packages
+  install_packages tidy
   [ -f "$build_dir/build.ninja" ] || cmake --preset release >&2
   # An anchored default keeps outside code that a build may have generated out of the list.
   exec run-clang-tidy -quiet -p "$build_dir" "${1:-$PWD/(engine|storage|api|server|cli|client)/.*}"
 fi
 
-install_packages build test
+install_build_packages
+install_packages test
 build_targets
 exec ctest --test-dir "$build_dir" --output-on-failure -j2 "$@"

@@ -50,7 +50,9 @@ cat <<SUMMARY
   matched   in seconds: $(seconds <<<"$answer")
   ${error//$'\n'/$'\n'  }
 
-Both shapes, corresponding points in one colour:
+The match, to look at:
+  $url/#src=$(jq -r .id <<<"$a")&tgt=$(jq -r .id <<<"$b")
+Both shapes in one picture, corresponding points in one colour:
   $match&format=png
 The source coloured by its place on the target, for MeshLab, Blender or three.js:
   curl '$match&format=glb' -o match.glb

@@ -40,6 +40,12 @@ install_packages() {
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}" >&2
 }
 
+# install_build_packages: what building needs. Node.js and npm may also be there by other ways than Debian's packages.
+install_build_packages() {
+  install_packages build
+  { command -v node && command -v npm; } >/dev/null || install_packages page
+}
+
 # build_targets [TARGET...]: configures once and builds, everything when no target is named. Ninja configures again by itself
 # when a CMake file changes.
 build_targets() {

@@ -26,6 +26,7 @@ constexpr auto rules = std::to_array<Rule>({
     {"GET", "/version", std::nullopt},
     {"GET", "/openapi.json", std::nullopt},
     {"GET", "/docs", std::nullopt},
+    {"GET", "/page/{id}", std::nullopt},
     {"GET", "/metrics", Scope::admin},
     {"POST", "/match", Scope::read},
     {"POST", "/evaluations", Scope::read},

@@ -106,6 +106,16 @@ void write_to(httplib::Response& to, HttpResponse from) {
     stream_to(to, from.content_type, std::move(from.stream));
     return;
   }
+  const bool encoded = to.has_header("Content-Encoding") && !from.body.empty();
+  if (encoded) {
+    // The library compresses a plain body, also one that is compressed already.
+    const std::size_t size = from.body.size();
+    to.set_content_provider(size, from.content_type,
+                            [body = std::move(from.body)](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+                              return sink.write(body.data() + offset, length);
+                            });
+    return;
+  }
   if (!from.content_type.empty()) to.set_header("Content-Type", from.content_type);
   to.body = std::move(from.body);
 }

@@ -129,6 +129,7 @@ int serve(const ServerOptions& options) {
   add_transfer_routes(router, context);
   add_scene_routes(router, context);
   add_job_routes(router, context);
+  add_page_routes(router);
   add_docs_routes(router);
   HttpServerSettings settings = http_settings(options);
   operations.add_to(settings);

@@ -9,31 +9,6 @@ namespace spherematch {
 
 namespace {
 
-constexpr std::string_view start_page = R"(<!doctype html>
-<html lang="en">
-<head><meta charset="utf-8"><title>Spherematch</title></head>
-<body>
-<h1>Spherematch</h1>
-<p>Dense point-to-point correspondence between genus-zero surfaces.</p>
-<ul>
-<li><a href="/shapes">/shapes</a>: what is stored; POST a mesh here</li>
-<li>/shapes/{id}, /shapes/{id}/mesh, /shapes/{id}/sphere, /shapes/{id}/hks: one shape, its upload, its spherical parametrisation, its signals</li>
-<li>/shapes/{id}/symmetry: its bilateral symmetry, a map to itself</li>
-<li>/match?src={id}&amp;tgt={id}: the map from one shape to another</li>
-<li>/evaluations: POST two shapes and what is known of their correspondence, get how good the match is</li>
-<li>/transfer?src={id}&amp;tgt={id}: POST an array of values at the vertices of tgt, get it for those of src</li>
-<li>/scene?src={id}&amp;tgt={id}: both meshes, corresponding points in one colour</li>
-<li><a href="/healthz">/healthz</a>, <a href="/readyz">/readyz</a>, <a href="/version">/version</a>, /metrics: the server itself</li>
-<li><a href="/docs">/docs</a>, <a href="/openapi.json">/openapi.json</a>: every operation, parameter and answer</li>
-</ul>
-<pre>
-curl --data-binary @a.off 'SERVER/shapes?name=a&amp;wait=60'
-curl 'SERVER/match?src=ID_A&amp;tgt=ID_B&amp;format=npz' -o map.npz
-</pre>
-</body>
-</html>
-)";
-
 HttpResponse json_response(const api::Json& json, std::string cache_control) {
   return {.status = 200,
           .content_type = "application/json",
@@ -80,15 +55,9 @@ HttpResponse get_version(const ServerContext& context, const HttpRequest& reques
   return json_response(api::to_json(version), "no-cache");
 }
 
-HttpResponse get_start_page(const HttpRequest& request) {
-  const RequestParameters parameters(request, {});
-  return {.status = 200, .content_type = "text/html; charset=utf-8", .body = std::string(start_page), .headers = {}};
-}
-
 }  // namespace
 
 void add_system_routes(Router& router, const ServerContext& context) {
-  router.add("GET", "/", [](HttpRequest& request) { return get_start_page(request); });
   router.add("GET", "/healthz", [&context](HttpRequest& request) { return get_health(context, request); });
   router.add("GET", "/version", [&context](HttpRequest& request) { return get_version(context, request); });
 }

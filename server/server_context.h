@@ -34,6 +34,7 @@ void add_docs_routes(Router& router);
 void add_job_routes(Router& router, const ServerContext& context);
 void add_match_routes(Router& router, const ServerContext& context);
 void add_match_post_routes(Router& router, const ServerContext& context);
+void add_page_routes(Router& router);
 void add_evaluation_routes(Router& router, const ServerContext& context);
 void add_transfer_routes(Router& router, const ServerContext& context);
 void add_scene_routes(Router& router, const ServerContext& context);

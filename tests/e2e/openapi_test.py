@@ -33,6 +33,8 @@ class OpenApiTest(support.TestCase):
         return Checker(document or self.document, lambda method, target, body, headers: self.server.request(method, target, body, headers))
 
     def target(self, path):
+        if path.startswith('/page'):
+            return '/page/page.js'
         return path.replace('{id}', self.a if path.startswith('/shapes') else 'p' + self.a)
 
     def body(self, method, path):
@@ -60,6 +62,11 @@ class OpenApiTest(support.TestCase):
         call, a, b = checker.call, self.a, self.b
         for path in ('/', '/healthz', '/readyz', '/version', '/metrics', '/docs'):
             call('get', path)
+        for name in ('page.js', 'page.css', 'icon.svg', 'licences.txt', 'none'):
+            call('get', '/page/{id}', '/page/' + name)
+        for path in ('/', '/page/page.js'):
+            tag = call('get', path.replace('page.js', '{id}'), path).headers['ETag']
+            self.assertEqual(call('get', path.replace('page.js', '{id}'), path, headers={'If-None-Match': tag}).status, 304)
         document = call('get', '/openapi.json')
         self.assertEqual(document.json(), self.document)
         call('get', '/openapi.json', headers={'If-None-Match': document.headers['ETag']})

@@ -4,7 +4,7 @@
 usage: check_includes.py ROOT     prints a line per violation; exit code 1 when there is one
 
 What may include what of our own:
-  client -> api;  server -> api, engine, storage;  cli -> engine, storage;  storage -> engine/data;
+  client -> api;  server -> api, engine, storage, web;  cli -> engine, storage;  storage -> engine/data;
   inside the engine, a folder -> data and the folders before it in ENGINE_ORDER;
   from outside the engine only engine/engine.h, engine/data and engine/io;
   tests, bench and samples -> anything.
@@ -24,7 +24,8 @@ ARROWS = {
     "api": ("api/",),
     "client": ("client/", "api/"),
     "storage": ("storage/", "engine/data/"),
-    "server": ("server/", "api/", "storage/", *ENGINE_FROM_OUTSIDE),
+    "server": ("server/", "api/", "storage/", "web/", *ENGINE_FROM_OUTSIDE),
+    "web": ("web/",),
     "cli": ("cli/", "storage/", *ENGINE_FROM_OUTSIDE),
 }
 UNRESTRICTED = ("tests", "bench", "samples")

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-FOLDERS = ("engine", "storage", "api", "server", "cli", "client", "tests", "bench", "samples")
+FOLDERS = ("engine", "storage", "api", "server", "cli", "client", "tests", "bench", "samples", "web")
 
 
 def cpp_sources(root: Path) -> list[Path]:
@@ -10,6 +10,8 @@ def cpp_sources(root: Path) -> list[Path]:
     found = []
     for folder in FOLDERS:
         for path in (root / folder).rglob("*"):
+            if "node_modules" in path.parts:
+                continue
             if path.suffix in (".h", ".hpp", ".cpp", ".cc") and path.is_file():
                 found.append(path.relative_to(root))
     return sorted(found)

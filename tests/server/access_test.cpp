@@ -69,6 +69,8 @@ TEST_F(AccessTest, EveryScopeAllowsWhatItShould) {
            Case{"GET", "/version", 200, 200, 200, 200},
            Case{"GET", "/openapi.json", 200, 200, 200, 200},
            Case{"GET", "/docs", 200, 200, 200, 200},
+           Case{"GET", "/page/{id}", 200, 200, 200, 200},
+           Case{"POST", "/page/{id}", 401, 403, 200, 200},
            Case{"GET", "/shapes", 401, 200, 200, 200},
            Case{"HEAD", "/shapes/{id}", 401, 200, 200, 200},
            Case{"GET", "/match", 401, 200, 200, 200},

@@ -47,12 +47,6 @@ TEST_F(RoutesSystem, VersionNamesExactlyTheFormatsOfMatch) {
   EXPECT_NE(refused.body.find(listed), std::string::npos) << refused.body << listed;
 }
 
-TEST_F(RoutesSystem, TheStartPageNamesTheRoutes) {
-  const HttpResponse page = get("/");
-  EXPECT_EQ(page.content_type, "text/html; charset=utf-8");
-  for (const char* text : {"/shapes", "/match", "/healthz", "/version"}) EXPECT_NE(page.body.find(text), std::string::npos) << text;
-}
-
 TEST_F(RoutesSystem, UnknownParametersAreRefusedEverywhere) {
   for (const char* path : {"/", "/healthz", "/version", "/shapes", "/match", "/shapes/0", "/shapes/0/sphere"}) {
     EXPECT_EQ(problem_code(get(path, {{"bogus", "1"}})), api::Code::invalid_parameter) << path;

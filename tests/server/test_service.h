@@ -55,6 +55,7 @@ class TestService : public ::testing::Test {
     add_transfer_routes(*router, *context);
     add_scene_routes(*router, *context);
     add_job_routes(*router, *context);
+    add_page_routes(*router);
     add_docs_routes(*router);
     add_system_routes(*router, *context);
   }
