@@ -1,19 +1,25 @@
 // Puts the page together: the view in the address, the gallery, the stage, and the panels around it.
 
-import {Problem, api, onUnauthorized} from './api.js';
-import {announce, debounced, h, icon} from './dom.js';
+import {Problem, onUnauthorized} from './api.js';
+import {debounced, h, icon} from './dom.js';
+import {askForKey, openHelp} from './dialog.js';
 import {Gallery} from './gallery.js';
+import {listen} from './keyboard.js';
 import {Presenter} from './present.js';
+import {explain} from './problems.js';
 import {Store, defaults, matchQuery, readAddress, writeAddress} from './state.js';
 import * as workspace from './workspace.js';
-import {MESH} from './upload.js';
+import {TRUTH} from './upload.js';
 import {Stage, hasWebGl} from './view/stage.js';
+import {copyText, exportSection} from './panels/export.js';
 import {formSection, mapSection, paintSection} from './panels/controls.js';
 import {Inspector} from './panels/inspector.js';
 import {showLegend} from './panels/legend.js';
+import {TruthPanel} from './panels/truth.js';
 
 const byId = (id) => document.getElementById(id);
 const store = new Store(readAddress(location.hash));
+onUnauthorized((message) => askForKey(message));
 
 function notice(text, problem) {
   const element = byId('notice');
@@ -30,8 +36,13 @@ function failed(error) {
   }
 }
 
+let presenter = null;
+let inspector = null;
+let stage = null;
 const map = mapSection(store);
-byId('panel').append(paintSection(store), formSection(store), map.element);
+const truth = new TruthPanel(store, () => presenter?.scene ?? {}, {changed: (known) => presenter?.setTruth(known), failed});
+const exports = exportSection(store);
+byId('panel').append(paintSection(store), formSection(store), map.element, truth.element, exports.element);
 
 const gallery = new Gallery(store, {
   choose: (side, shape) => store.set({[side === 'source' ? 'src' : 'tgt']: shape.id, candidate: 0, pins: [], camera: null, camera2: null}),
@@ -45,19 +56,17 @@ const gallery = new Gallery(store, {
     if (store.view.src === id) store.set({src: '', pins: []});
     if (store.view.tgt === id) store.set({tgt: '', pins: []});
   },
-  explain: (file, problem) => notice(problem.detail, problem),
+  explain,
   failed,
 });
 
-let inspector = null;
-let stage = null;
 if (hasWebGl()) {
   stage = new Stage(byId('stage'), {
     hover: (side, vertex) => inspector.hover(side, vertex),
     pick: (side, vertex, more) => inspector.pick(side, vertex, more),
     moved: debounced(() => store.set({camera: stage.cameras.source.toArray(), camera2: store.view.linked ? null : stage.cameras.target.toArray()}), 150),
   });
-  const presenter = new Presenter(stage, store, {
+  presenter = new Presenter(stage, store, {
     busy: (text) => {
       byId('busy').textContent = text;
       byId('busy').hidden = !text;
@@ -72,6 +81,23 @@ if (hasWebGl()) {
   });
   inspector = new Inspector(byId('inspector'), stage, store, presenter);
   presenter.update(store.view, new Set(Object.keys(defaults())));
+} else {
+  withoutWebGl();
+}
+
+/** The gallery and the server's own picture of the match still work. */
+function withoutWebGl() {
+  const place = byId('stage');
+  place.dataset.state = 'no-webgl';
+  const show = (view) => {
+    const picture = view.src && view.tgt ? h('img', {src: `/match?${matchQuery(view)}&format=png`, alt: 'Both shapes, corresponding points in one colour', width: 1200, height: 600}) : '';
+    place.replaceChildren(h('div', {class: 'fallback', id: 'no-webgl'}, h('h2', {text: 'This browser does not show WebGL'}),
+      h('p', {text: 'Shapes cannot be turned or clicked on here. Uploads, maps and downloads work all the same, and the server draws a picture of each match.'}), picture));
+  };
+  store.subscribe((view, changed) => {
+    if (changed.has('src') || changed.has('tgt') || changed.has('candidate')) show(view);
+  });
+  show(store.view);
 }
 
 async function arrived(scene) {
@@ -80,7 +106,9 @@ async function arrived(scene) {
   }
   byId('welcome').hidden = Boolean(scene.source && scene.target);
   inspector.refresh();
+  exports.update(scene);
   if (!scene.map) return map.clear();
+  truth.update();
   const query = matchQuery(store.view);
   const figures = await workspace.matchFigures(query);
   if (String(query) === String(matchQuery(store.view))) map.show(figures);
@@ -94,10 +122,36 @@ addEventListener('hashchange', () => store.set(readAddress(location.hash)));
 
 byId('swap').append(icon('swap'));
 byId('home').append(icon('home'));
-byId('swap').addEventListener('click', () => {
+byId('drop').querySelector('.drop-mark').append(icon('upload'));
+byId('share').addEventListener('click', (event) => copyText(location.href, event.currentTarget));
+byId('help').addEventListener('click', openHelp);
+byId('swap').addEventListener('click', swap);
+byId('home').addEventListener('click', home);
+listen(store, {swap, home, morph});
+
+function home() {
+  store.set({camera: null, camera2: null});
+  presenter?.lookFromBroadSide();
+  stage?.draw();
+}
+
+/** To the image and back, in about a second. */
+function morph() {
+  const goal = store.view.morph < 0.5 ? 1 : 0;
+  const from = store.view.morph;
+  const began = performance.now();
+  const step = (now) => {
+    const share = Math.min(1, (now - began) / 900);
+    store.set({morph: from + (goal - from) * (share * share * (3 - 2 * share)), form: 'surface'});
+    if (share < 1) requestAnimationFrame(step);
+  };
+  requestAnimationFrame(step);
+}
+
+function swap() {
   const turned = store.view.pins.map(({side, vertex}) => ({side: side === 'source' ? 'target' : 'source', vertex}));
   store.set({src: store.view.tgt, tgt: store.view.src, pins: turned, candidate: 0, camera: null, camera2: null});
-});
+}
 byId('files').addEventListener('change', (event) => {
   gallery.send(event.target.files);
   event.target.value = '';
@@ -114,7 +168,9 @@ addEventListener('drop', (event) => {
   event.preventDefault();
   document.body.classList.remove('dragging');
   const files = [...event.dataTransfer.files];
-  gallery.send(files.filter(({name}) => MESH.test(name)));
+  const known = files.filter(({name}) => TRUTH.test(name));
+  if (known.length > 0) truth.add(known);
+  gallery.send(files.filter((file) => !known.includes(file)));
 });
 
 gallery.load();

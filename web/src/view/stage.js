@@ -152,7 +152,8 @@ export class Stage {
   placeMarkers(pane, width, height) {
     for (const marker of pane.markers) {
       const world = pane.surface.drawnPoint(marker.corners, marker.bary).applyQuaternion(pane.group.quaternion);
-      const hidden = this.isHidden(pane, world);
+      // A morph under way would need a new search tree for every step.
+      const hidden = !pane.surface.isMorphing && this.isHidden(pane, world);
       const screen = world.project(pane.eye);
       const [x, y] = [((screen.x + 1) / 2) * width, ((1 - screen.y) / 2) * height];
       marker.element.style.transform = `translate(${x.toFixed(2)}px, ${y.toFixed(2)}px)`;

@@ -25,6 +25,10 @@ export class Surface {
     this.drop = () => [this.geometry, this.material, this.wires?.material, this.links?.geometry, this.links?.material].forEach((part) => part?.dispose());
   }
 
+  get isMorphing() {
+    return this.uniforms.toGoal.value > 0;
+  }
+
   get uniforms() {
     return this.material.uniforms;
   }
