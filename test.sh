@@ -16,5 +16,6 @@ fi
 
 install_build_packages
 install_packages test
+install_page_tests
 build_targets
 exec ctest --test-dir "$build_dir" --output-on-failure -j2 "$@"

@@ -46,6 +46,14 @@ install_build_packages() {
   { command -v node && command -v npm; } >/dev/null || install_packages page
 }
 
+# install_page_tests: what drives the page in a browser, from the npm registry.
+install_page_tests() {
+  local installed=tests/web/node_modules/.package-lock.json
+  [ "$installed" -nt tests/web/package-lock.json ] && return
+  (cd tests/web && npm ci --ignore-scripts --no-audit --no-fund --loglevel=error) >&2
+  touch "$installed"
+}
+
 # build_targets [TARGET...]: configures once and builds, everything when no target is named. Ninja configures again by itself
 # when a CMake file changes.
 build_targets() {

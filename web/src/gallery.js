@@ -8,6 +8,12 @@ import {upload} from './upload.js';
 const POLL = 400;
 const isActive = ({state}) => state === 'queued' || state === 'processing';
 
+/** What is asked for with an upload beyond the server's defaults. */
+function chosenOptions() {
+  const options = {repair: document.getElementById('repair').value, simplify: document.getElementById('simplify').value};
+  return Object.fromEntries(Object.entries(options).filter(([, value]) => value && value !== 'fill'));
+}
+
 export class Gallery {
   /** `actions`: {choose(side, shape), uploaded(shape), removed(id), explain(file, problem), failed(error)} */
   constructor(store, actions) {
@@ -92,7 +98,7 @@ export class Gallery {
     }
     const mended = Object.entries(shape.repair ?? {}).filter(([, count]) => typeof count === 'number' && count > 0);
     return h('div', {class: 'meta'}, `${number(shape.vertices)} vertices`,
-      mended.length > 0 && h('span', {class: 'mended', text: ' · mended', title: mended.map(([what, count]) => `${what.replaceAll('_', ' ')}: ${count}`).join('\n')}));
+      mended.length > 0 && h('span', {class: 'mended', text: 'mended', title: mended.map(([what, count]) => `${what.replaceAll('_', ' ')}: ${count}`).join('\n')}));
   }
 
   mark() {
@@ -136,7 +142,7 @@ export class Gallery {
       const shape = await upload(file, (share) => {
         bar.value = share;
         if (share === 1) line.lastChild.textContent = 'checking';
-      });
+      }, chosenOptions());
       row.remove();
       this.show(shape);
       if (shape.state === 'ready') this.actions.uploaded(shape);

@@ -89,10 +89,14 @@ if (hasWebGl()) {
 function withoutWebGl() {
   const place = byId('stage');
   place.dataset.state = 'no-webgl';
+  const told = h('div', {class: 'fallback', id: 'no-webgl'});
+  place.querySelectorAll('canvas, .pane, .welcome').forEach((part) => (part.hidden = true));
+  byId('home').hidden = true;
+  place.append(told);
   const show = (view) => {
     const picture = view.src && view.tgt ? h('img', {src: `/match?${matchQuery(view)}&format=png`, alt: 'Both shapes, corresponding points in one colour', width: 1200, height: 600}) : '';
-    place.replaceChildren(h('div', {class: 'fallback', id: 'no-webgl'}, h('h2', {text: 'This browser does not show WebGL'}),
-      h('p', {text: 'Shapes cannot be turned or clicked on here. Uploads, maps and downloads work all the same, and the server draws a picture of each match.'}), picture));
+    told.replaceChildren(h('h2', {text: 'This browser does not show WebGL'}),
+      h('p', {text: 'Shapes cannot be turned or clicked on here. Uploads, maps and downloads work all the same, and the server draws a picture of each match.'}), picture);
   };
   store.subscribe((view, changed) => {
     if (changed.has('src') || changed.has('tgt') || changed.has('candidate')) show(view);

@@ -49,8 +49,6 @@ export function exportSection(store) {
   const copy = h('button', {type: 'button', text: 'Copy', id: 'copy-lines', on: {click: () => copyText(texts[language], copy)}});
   const lines = h('div', {id: 'lines'}, h('div', {class: 'choice', role: 'group', 'aria-label': 'Language'}, ...tabs),
     h('div', {class: 'snippet'}, h('pre', {tabIndex: 0, 'aria-label': 'Lines that do the same'}, code), copy));
-  lines.style.display = 'grid';
-  lines.style.gap = '.4rem';
   const element = section('Export', downloads, lines);
   element.hidden = true;
   return {element, update: (scene) => {

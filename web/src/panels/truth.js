@@ -15,7 +15,7 @@ export class TruthPanel {
     const input = h('input', {type: 'file', multiple: true, id: 'truth-files', accept: '.vts,.txt,.npy,.json', on: {change: () => this.add(input.files)}});
     this.list = h('ul', {class: 'truth-files', 'aria-label': 'Ground truth files'});
     this.result = h('div', {id: 'evaluation'});
-    this.identity = h('button', {type: 'button', text: 'Equal numbers', title: 'Vertices of equal number belong together', 'aria-pressed': 'false',
+    this.identity = h('button', {type: 'button', text: 'Equal numbers', title: 'Vertices of equal number belong together', 'aria-pressed': String(store.view.truth === 'identity'),
       on: {click: () => store.set({truth: store.view.truth ? '' : 'identity'})}});
     this.element = section('Truth',
       h('label', {class: 'truth-drop', for: 'truth-files'}, input, 'Drop what is known: lists of vertices on both shapes (.vts), or a target vertex for each source vertex (.txt, .npy)'),
