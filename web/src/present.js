@@ -206,7 +206,7 @@ export class Presenter {
 
 /** A few hundred links between vertices and their mirror images, each once, spread evenly over the vertices. */
 function linkEnds(places, images, distance) {
-  const step = Math.max(1, Math.floor(distance.length / 240));
+  const step = Math.max(1, Math.floor(distance.length / 140));
   const ends = [];
   for (let i = 0; i < distance.length; i += step) {
     if (distance[i] < 0.05 || distance[i] >= 1.5 || !Number.isFinite(images[3 * i])) continue;

@@ -79,6 +79,10 @@ export function quality(query) {
   });
 }
 
+/** The values of `format` that GET /match takes. */
+let formats = null;
+export const matchFormats = () => (formats ??= api.version().then((version) => version.formats.match));
+
 /** Left to right on one shape: {vertex, images (normalised), distance, involution}. */
 export function symmetry(id) {
   return symmetries.get(id, async () => {

@@ -116,10 +116,9 @@ describe('the match', () => {
       // At the rim of a shape a pixel is partly of what is behind.
       if ([own, image].some(({x, y}) => [[-3, 0], [3, 0], [0, -3], [0, 3]].some(([u, v]) => at(x + u, y + v).some((value, k) => Math.abs(value - at(x, y)[k]) > 12)))) continue;
       a.forEach((value, k) => assert.ok(Math.abs(value - b[k]) <= 5, `vertex ${v}: ${a} and ${b}`));
-      colours.push(a);
+      if (colours.every((other) => other.some((value, k) => Math.abs(value - a[k]) > 24))) colours.push(a);
     }
-    assert.equal(colours.length, 4, 'too few vertices are visible on both sides');
-    colours.forEach((a, i) => colours.slice(0, i).forEach((b) => assert.ok(a.some((value, k) => Math.abs(value - b[k]) > 16), `${a} and ${b}`)));
+    assert.equal(colours.length, 4, 'too few colours are visible on both sides');
   });
 
   for (const side of ['source', 'target']) {
@@ -296,7 +295,9 @@ describe('taking things along', () => {
     await open(page, server.url, pair());
     await page.waitForSelector('#downloads a');
     const links = await page.$$eval('#downloads a', (all) => all.map((link) => [link.textContent, link.href]));
-    assert.deepEqual(links.map(([name]) => name), ['NPZ', 'NPY', 'TXT', 'JSON', 'PLY', 'GLB', 'OBJ', 'PNG', 'Scene']);
+    const {formats} = await (await fetch(`${server.url}/version`)).json();
+    assert.ok(formats.match.length > 7);
+    assert.deepEqual(links.map(([name]) => name), [...formats.match.map((name) => name.toUpperCase()), 'Scene']);
     for (const [name, href] of links) {
       const answer = await fetch(href);
       assert.equal(answer.status, 200, name);

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {droppedBy, imageOf, percentiles, pullBack, row, sampleGrid, straightErrors} from '../../../web/src/map/correspondence.js';
+import {droppedBy, imageOf, percentiles, pullBack, row, sampleGrid, spread, straightErrors} from '../../../web/src/map/correspondence.js';
 import {broadSide, closestRotation, measure, normalised, symmetricEigen, turn} from '../../../web/src/map/geometry.js';
 import {baseOf, guessRole, readVertices, truthArray, truthOf} from '../../../web/src/map/truth.js';
 import {snippets} from '../../../web/src/snippets.js';
@@ -82,6 +82,20 @@ test('errors are distances to the true vertex, where it is known', () => {
   assert.ok(Number.isNaN(errors[1]));
   assert.deepEqual(percentiles([5, NaN, 1, 3], 0, 0.99), [1, 5]);
   assert.deepEqual(percentiles([NaN], 0, 1), [0, 1]);
+});
+
+test('a few values are spread over the mesh, and kept where they are known', () => {
+  // A strip of squares, 0 at one end and 1 at the other.
+  const n = 9, index = [];
+  for (let i = 0; i < n - 1; ++i) index.push(2 * i, 2 * i + 2, 2 * i + 1, 2 * i + 1, 2 * i + 2, 2 * i + 3);
+  const values = new Float32Array(2 * n).fill(NaN);
+  values[0] = values[1] = 0;
+  values[2 * n - 2] = values[2 * n - 1] = 1;
+  const all = spread(values, index, 400);
+  assert.ok(all.every((value) => value >= 0 && value <= 1));
+  assert.deepEqual([all[0], all[1], all[2 * n - 1]], [0, 0, 1]);
+  assert.ok(all[4] < 0.45 && all[2 * n - 5] > 0.55, [...all].join());
+  assert.equal(spread(Float32Array.of(1, 2, NaN), [0, 1, 2])[2], NaN);
 });
 
 test('lists of vertices become the truth of each source vertex', () => {

@@ -81,3 +81,46 @@ export function sampleGrid(grid, n, points) {
   }
   return result;
 }
+
+/**
+ * Values at all vertices of a mesh from those at a few: first that of the nearest known one, by steps along edges, then means over
+ * neighbours with the known values held. Where most values are known, or none, they come back as they are.
+ */
+export function spread(values, index, rounds = 60) {
+  const known = values.reduce((count, value) => count + (Number.isFinite(value) ? 1 : 0), 0);
+  if (known === 0 || known > values.length / 2) return values;
+  const {from, to} = neighbours(values.length, index);
+  let current = Float32Array.from(values);
+  let front = [...current.keys()].filter((i) => Number.isFinite(current[i]));
+  while (front.length > 0) {
+    const next = [];
+    for (const i of front) {
+      for (let k = from[i]; k < from[i + 1]; ++k) {
+        if (Number.isFinite(current[to[k]])) continue;
+        current[to[k]] = current[i];
+        next.push(to[k]);
+      }
+    }
+    front = next;
+  }
+  for (let round = 0; round < rounds; ++round) {
+    current = current.map((value, i) => {
+      if (Number.isFinite(values[i]) || from[i] === from[i + 1]) return value;
+      let sum = 0;
+      for (let k = from[i]; k < from[i + 1]; ++k) sum += current[to[k]];
+      return sum / (from[i + 1] - from[i]);
+    });
+  }
+  return current;
+}
+
+/** The neighbours of vertex i are to[from[i]] … to[from[i + 1] - 1]; of a closed mesh each edge is named by one face from either end. */
+function neighbours(count, index) {
+  const from = new Uint32Array(count + 1);
+  for (const corner of index) ++from[corner + 1];
+  for (let i = 0; i < count; ++i) from[i + 1] += from[i];
+  const at = from.slice();
+  const to = new Uint32Array(index.length);
+  for (let f = 0; f < index.length; f += 3) for (let k = 0; k < 3; ++k) to[at[index[f + k]]++] = index[f + ((k + 1) % 3)];
+  return {from, to};
+}

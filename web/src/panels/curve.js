@@ -2,7 +2,7 @@
 
 import {svg} from '../dom.js';
 
-const [WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT] = [256, 150, 28, 22, 6, 6];
+const [WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT] = [256, 158, 26, 30, 6, 12];
 
 /** `curves`: [{values, class, name}] over the same thresholds */
 export function curveFigure(thresholds, curves, description) {
@@ -13,8 +13,8 @@ export function curveFigure(thresholds, curves, description) {
   for (const share of [0, 0.25, 0.5, 0.75, 1]) {
     figure.append(svg('path', {class: 'frame', d: `M${LEFT} ${y(share)}H${WIDTH - RIGHT}`}), text(LEFT - 4, y(share) + 3, `${share * 100}`, 'end'));
   }
-  for (let k = 0; k <= 5; ++k) figure.append(text(x((last * k) / 5), HEIGHT - 10, (Math.round(last * 20 * k) / 100).toString(), 'middle'));
-  figure.append(text((LEFT + WIDTH) / 2, HEIGHT - 0.5, 'geodesic error over √area', 'middle'));
+  for (let k = 0; k <= 5; ++k) figure.append(text(x((last * k) / 5), HEIGHT - 17, (Math.round(last * 20 * k) / 100).toString(), 'middle'));
+  figure.append(text((LEFT + WIDTH) / 2, HEIGHT - 4, 'geodesic error over √area', 'middle'));
   for (const {values, kind} of curves) {
     figure.append(svg('path', {class: `line ${kind}`, d: values.map((share, i) => `${i ? 'L' : 'M'}${x(thresholds[i]).toFixed(1)} ${y(share).toFixed(1)}`).join('')}));
   }

@@ -2,20 +2,22 @@
 
 import {api, apiKey} from '../api.js';
 import {announce, h} from '../dom.js';
+import * as workspace from '../workspace.js';
 import {snippets} from '../snippets.js';
 import {matchQuery} from '../state.js';
 import {section} from './controls.js';
 
-const FORMATS = [
-  ['npz', 'vertex, corners and weights for NumPy'],
-  ['npy', 'the nearest vertex for NumPy'],
-  ['txt', 'the nearest vertex, one a line'],
-  ['json', 'the map with all there is to say of it'],
-  ['ply', 'the coloured source, with the images as tx ty tz'],
-  ['glb', 'the coloured source, for any 3D program'],
-  ['obj', 'the coloured source as text'],
-  ['png', 'a picture of both shapes'],
-];
+const TITLES = {
+  npz: 'vertex, corners and weights for NumPy',
+  npy: 'the nearest vertex for NumPy',
+  txt: 'the nearest vertex, one a line',
+  json: 'the map with all there is to say of it',
+  ply: 'the coloured source, with the images as tx ty tz',
+  glb: 'the coloured source, for any 3D program',
+  obj: 'the coloured source as text',
+  png: 'a picture of both shapes',
+  map: 'the nearest vertex, counted from 1',
+};
 const LANGUAGES = [['curl', 'curl'], ['python', 'Python'], ['cpp', 'C++']];
 
 const plain = (name) => (name || 'shape').replace(/\.[^.]*$/, '').replace(/[^\w.-]+/g, '-');
@@ -51,16 +53,17 @@ export function exportSection(store) {
     h('div', {class: 'snippet'}, h('pre', {tabIndex: 0, 'aria-label': 'Lines that do the same'}, code), copy));
   const element = section('Export', downloads, lines);
   element.hidden = true;
-  return {element, update: (scene) => {
+  return {element, update: async (scene) => {
     element.hidden = !scene.map;
     if (!scene.map) return;
     const query = matchQuery(store.view);
+    const formats = await workspace.matchFormats();
     const names = {source: scene.source.info.name || 'the source', target: scene.target.info.name || 'the target'};
     const file = `${plain(names.source)}-${plain(names.target)}`;
     // Of candidates /scene knows the best one alone.
     const rest = new URLSearchParams([...query].filter(([name]) => name !== 'candidate'));
     downloads.replaceChildren(
-      ...FORMATS.map(([format, title]) => link(`/match?${query}&format=${format}${format === 'json' ? '&fields=vertex,corners,bary' : ''}`, `${file}.${format}`, format.toUpperCase(), title)),
+      ...formats.map((format) => link(`/match?${query}&format=${format}${format === 'json' ? '&fields=vertex,corners,bary' : ''}`, `${file}.${format}`, format.toUpperCase(), TITLES[format])),
       ...(query.has('candidate') ? [] : [link(`/scene?${rest}`, `${file}-scene.glb`, 'Scene', 'both meshes in one GLB file')]));
     texts = snippets(location.origin, query, names);
     show();

@@ -74,7 +74,7 @@ vec3 painted() {
 
 void main() {
   if (wire) {
-    gl_FragColor = vec4(wireColour, 0.32);
+    gl_FragColor = vec4(wireColour, 0.24);
     return;
   }
   vec3 colour = painted();

@@ -2,7 +2,7 @@
 // the source by the map, or one on the source, carried to the target by the map of the other direction.
 
 import * as workspace from '../workspace.js';
-import {percentiles, pullBack, sampleGrid, straightErrors} from '../map/correspondence.js';
+import {percentiles, pullBack, sampleGrid, spread, straightErrors} from '../map/correspondence.js';
 import {matchQuery} from '../state.js';
 import {MAP_OF_PAINT, normalColours, placeColours} from './colours.js';
 
@@ -92,9 +92,11 @@ async function qualityPaints(view, {map}) {
   return scalarPaints(view, known.distortion, [0, high], 'distortion', {title: 'Distortion', note: '0 where distances are kept'});
 }
 
-async function errorPaints(view, {target, map}, truth) {
+async function errorPaints(view, {source, target, map}, truth) {
   if (!truth) return {source: PLAIN, target: PLAIN, legend: {title: 'Error', missing: 'Drop ground truth to see errors.'}};
   const errors = straightErrors(pullBack(map, target.positions), target.positions, truth, target.scale);
   const high = Math.max(percentiles(errors, 0, 0.98)[1], 1e-3);
-  return scalarPaints(view, errors, [0, high], 'error', {title: 'Error', note: 'straight distance to the true place over √area; gray where it is not known'});
+  const all = spread(errors, source.index);
+  const note = 'straight distance to the true place over √area' + (all === errors ? '' : ', between the known points interpolated');
+  return scalarPaints(view, all, [0, high], 'error', {title: 'Error', note});
 }

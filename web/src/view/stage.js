@@ -98,12 +98,12 @@ export class Stage {
     if (this.wanted) return;
     this.wanted = true;
     requestAnimationFrame(() => {
-      this.wanted = false;
-      this.drawNow();
+      if (this.wanted) this.drawNow();
     });
   }
 
   drawNow() {
+    this.wanted = false;
     const {width, height} = this.root.getBoundingClientRect();
     if (width === 0 || height === 0) return;
     this.renderer.setSize(width, height, false);
@@ -135,7 +135,7 @@ export class Stage {
     const camera = this.cameraOf(side);
     const radius = Math.max(...SIDES.map((name) => this.panes[name].radius ?? 0)) || 1;
     const half = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
-    const distance = (radius * 1.04) / half / Math.min(1, aspect);
+    const distance = (radius * 0.96) / half / Math.min(1, aspect);
     pane.group.quaternion.copy(camera.turn);
     pane.eye.aspect = aspect;
     // Zooming narrows the view, so that the eye never enters a shape.

@@ -85,7 +85,7 @@ export class Surface {
     geometry.setAttribute('position', new BufferAttribute(ends, 3));
     const material = new ShaderMaterial({
       vertexShader: 'uniform mat3 surfaceTurn; void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(surfaceTurn * position, 1.0); }',
-      fragmentShader: 'void main() { gl_FragColor = vec4(0.98, 0.20, 0.42, 0.55); }',
+      fragmentShader: 'void main() { gl_FragColor = vec4(0.98, 0.20, 0.42, 0.5); }',
       transparent: true,
       depthTest: false,
     });
