@@ -73,7 +73,8 @@ if (hasWebGl()) {
     },
     failed: (what, error) => {
       byId('busy').hidden = true;
-      byId('stage').dataset.state = 'failed';
+      // A paint or a form that is not to be had leaves the match as it is.
+      if (what === 'shape' || what === 'match') byId('stage').dataset.state = 'failed';
       failed(error);
     },
     legend: (legend) => showLegend(byId('legend'), store, legend),
@@ -114,8 +115,12 @@ async function arrived(scene) {
   if (!scene.map) return map.clear();
   truth.update();
   const query = matchQuery(store.view);
-  const figures = await workspace.matchFigures(query);
-  if (String(query) === String(matchQuery(store.view))) map.show(figures);
+  try {
+    const figures = await workspace.matchFigures(query);
+    if (String(query) === String(matchQuery(store.view))) map.show(figures);
+  } catch (error) {
+    failed(error);
+  }
 }
 
 store.subscribe((view) => {

@@ -57,13 +57,16 @@ export class Presenter {
     if (generation !== this.generation) return;
     if (!view.camera) this.lookFromBroadSide();
     this.ui.arrived(this.scene);
+    let failed = false;
     try {
       if (asked) {
         this.ui.busy('Matching …');
         this.takeMap(await asked, generation);
       }
     } catch (error) {
-      if (generation === this.generation) this.ui.failed('match', error);
+      if (generation !== this.generation) return;
+      this.ui.failed('match', error);
+      failed = true;
     }
     if (generation !== this.generation) return;
     await this.paint();
@@ -71,7 +74,7 @@ export class Presenter {
     if (generation !== this.generation) return;
     this.ui.busy('');
     this.stage.drawNow();
-    Object.assign(this.stage.root.dataset, {state: this.scene.map ? 'matched' : view.src || view.tgt ? 'shown' : 'empty', milliseconds: String(Math.round(performance.now() - started))});
+    Object.assign(this.stage.root.dataset, {state: failed ? 'failed' : this.scene.map ? 'matched' : view.src || view.tgt ? 'shown' : 'empty', milliseconds: String(Math.round(performance.now() - started))});
     this.ui.arrived(this.scene);
     if (this.scene.map) announce('The match is shown.');
   }
@@ -125,7 +128,7 @@ export class Presenter {
     try {
       await this.fetchForms(view);
     } catch (error) {
-      this.ui.failed('form', error);
+      if (generation === this.generation) this.ui.failed('form', error);
     }
     if (generation !== this.generation) return;
     this.stage.linked = view.linked;
@@ -138,7 +141,7 @@ export class Presenter {
       surface.showWires(view.wire);
       surface.showSymmetry(view.symmetry);
     }
-    Object.assign(this.stage.root.dataset, {form: view.form, morph: String(view.morph)});
+    Object.assign(this.stage.root.dataset, {form: view.form, morph: String(view.morph), symmetry: String(view.symmetry), wire: String(view.wire)});
     this.stage.draw();
   }
 

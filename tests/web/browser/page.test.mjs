@@ -244,18 +244,17 @@ describe('views', () => {
     const differ = (a, b) => a.filter((colour, i) => colour.some((value, k) => Math.abs(value - b[i][k]) > 20)).length;
     let before = await look();
     const steps = [
-      ['form=sphere', () => page.getByRole('button', {name: 'Sphere'}).click()],
-      ['symmetry=1', async () => {
+      ['[data-form="sphere"]', () => page.getByRole('button', {name: 'Sphere'}).click()],
+      ['[data-form="surface"][data-symmetry="true"]', async () => {
         await page.getByRole('button', {name: 'Surface'}).click();
         await page.getByLabel('Symmetry').check();
       }],
-      ['morph=1', () => page.locator('#slider-morph').fill('1')],
-      ['wire=1', () => page.getByLabel('Edges').check()],
+      ['[data-morph="1"]', () => page.locator('#slider-morph').fill('1')],
+      ['[data-wire="true"]', () => page.getByLabel('Edges').check()],
     ];
     for (const [mark, step] of steps) {
       await step();
-      await page.waitForFunction((text) => location.hash.includes(text), mark);
-      await page.waitForTimeout(mark === 'symmetry=1' ? 2500 : 500);
+      await page.waitForSelector('#stage' + mark);
       const now = await look();
       assert.ok(differ(before, now) > 60, `${mark}: ${differ(before, now)} of ${now.length} samples differ`);
       before = now;
@@ -272,6 +271,28 @@ describe('views', () => {
       assert.notEqual((await page.locator('#legend').textContent()).trim(), '', paint);
     }
     assert.equal(await page.locator('#notice').isVisible(), false);
+  });
+
+  test('confidence and distortion are those of GET /match', async () => {
+    const query = `src=${stand}&tgt=${leap}`;
+    const known = JSON.stringify((await (await fetch(`${server.url}/openapi.json`)).json())).includes('confidence');
+    const n = (await (await fetch(`${server.url}/shapes/${stand}`)).json()).vertices;
+    let values = {confidence: Array.from({length: n}, (_, i) => (i % 100) / 100), distortion: Array.from({length: n}, (_, i) => (i % 7) / 7)};
+    if (known) {
+      values = await (await fetch(`${server.url}/match?${query}&fields=confidence,distortion`)).json();
+    } else {
+      // A server that does not give them yet, made to.
+      await page.route('**/openapi.json', (route) => route.fulfill({json: {paths: {'/match': {fields: 'confidence'}}, components: {}}}));
+      await page.route('**/match?*fields=confidence,distortion', (route) => route.fulfill({json: values}));
+    }
+    await open(page, server.url, pair('&paint=confidence&pins=s1234'));
+    const percent = `confidence ${(100 * values.confidence[1234]).toFixed(0)} %`;
+    await page.waitForFunction((text) => document.querySelector('.point.pin .confidence')?.textContent === text, percent);
+    assert.match(await page.locator('#legend').textContent(), /Confidence/);
+    await page.waitForSelector('#legend .ramp');
+    await page.getByRole('button', {name: 'Distortion'}).click();
+    await page.waitForFunction(() => document.querySelector('#legend strong')?.textContent === 'Distortion');
+    await page.unrouteAll();
   });
 
   test('ground truth gives the server\u2019s figures, a curve and coloured errors', async () => {
