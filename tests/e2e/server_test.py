@@ -1,5 +1,7 @@
 """Uploads, listing, errors and limits through a real server."""
+import gzip
 import json
+import re
 import socket
 import threading
 import time
@@ -191,7 +193,18 @@ class ServerTest(support.TestCase):
         self.assertEqual(version['limits']['body_bytes'], 1 << 20)
         self.assertEqual(version['limits']['vertices'], 3000)
         self.assertTrue(version['engine'])
-        self.assertIn(b'/match', self.server.get('/').body)
+
+    def test_page_comes_compressed_once(self):
+        document = self.server.get('/').body.decode()
+        self.assertIn('href="/docs"', document)
+        script = re.search(r'/page/page\.js\?v=[0-9a-f]+', document).group()
+        plain = self.server.get(script)
+        packed = self.server.get(script, headers={'Accept-Encoding': 'gzip, br'})
+        self.assertEqual(packed.headers['Content-Encoding'], 'gzip')
+        self.assertEqual(int(packed.headers['Content-Length']), len(packed.body))
+        self.assertEqual(gzip.decompress(packed.body), plain.body)
+        self.assertIn('immutable', packed.headers['Cache-Control'])
+        self.assertEqual(self.server.request('HEAD', script, headers={'Accept-Encoding': 'gzip'}).body, b'')
         head = self.server.request('HEAD', '/version')
         self.assertEqual((head.status, head.body), (200, b''))
         self.assertGreater(int(head.headers['Content-Length']), 0)
