@@ -40,7 +40,10 @@ let presenter = null;
 let inspector = null;
 let stage = null;
 const map = mapSection(store);
-const truth = new TruthPanel(store, () => presenter?.scene ?? {}, {changed: (known) => presenter?.setTruth(known), failed});
+const truth = new TruthPanel(store, () => presenter?.scene ?? {}, {changed: (known) => {
+  presenter?.setTruth(known);
+  inspector?.refresh();
+}, failed});
 const exports = exportSection(store);
 byId('panel').append(paintSection(store), formSection(store), map.element, truth.element, exports.element);
 
@@ -109,6 +112,8 @@ async function arrived(scene) {
   for (const side of ['source', 'target']) {
     document.querySelector(`.pane.${side} .name`).textContent = scene[side] ? scene[side].info.name || scene[side].id.slice(0, 8) : '';
   }
+  const names = ['source', 'target'].map((side) => scene[side]?.info.name).filter(Boolean);
+  document.title = [names.join(' → '), 'Spherematch'].filter(Boolean).join(' · ');
   byId('welcome').hidden = Boolean(scene.source && scene.target);
   inspector.refresh();
   exports.update(scene);
@@ -123,9 +128,18 @@ async function arrived(scene) {
   }
 }
 
-store.subscribe((view) => {
-  const address = writeAddress(view);
-  if (address !== location.hash) history.replaceState(null, '', address || location.pathname);
+/** Another pair is a step to come back from; anything else changes the address in place. */
+function keepAddress(step) {
+  const address = writeAddress(store.view);
+  if (address !== location.hash) history[step ? 'pushState' : 'replaceState'](null, '', address || location.pathname);
+}
+
+const keepAddressLater = debounced(() => keepAddress(false), 120);
+const CONTINUOUS = ['morph', 'camera', 'camera2', 'time'];
+store.subscribe((view, changed) => {
+  // Browsers allow only so many changes in a while.
+  if ([...changed].every((name) => CONTINUOUS.includes(name))) keepAddressLater();
+  else keepAddress(location.hash !== '' && (changed.has('src') || changed.has('tgt')));
 });
 addEventListener('hashchange', () => store.set(readAddress(location.hash)));
 

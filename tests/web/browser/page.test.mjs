@@ -218,6 +218,15 @@ describe('the address', () => {
     await other.close();
   });
 
+  test('remembers the pair before: back leads there', async () => {
+    await open(page, server.url, pair());
+    await page.getByRole('button', {name: 'Swap source and target'}).click();
+    await page.waitForFunction((src) => location.hash.startsWith(`#src=${src}`), leap);
+    await page.goBack();
+    await page.waitForFunction((src) => location.hash.startsWith(`#src=${src}`) && document.getElementById('stage').dataset.state === 'matched', stand);
+    assert.match(await page.title(), /^stand\.off → leap\.glb/);
+  });
+
   test('with nonsense shows the page all the same', async () => {
     await open(page, server.url, '#src=nonsense&paint=rainbow', 'empty');
     await page.waitForSelector('#shapes .card.ready');
@@ -308,6 +317,8 @@ describe('views', () => {
     assert.equal(path.match(/[ML]/g).length, geodesic.curve.length);
     await page.waitForSelector('#legend .ramp');
     assert.match(await page.locator('#legend').textContent(), /straight distance/);
+    await goTo(page, 'source', body.truth.source[7] - 1);
+    assert.match(await page.locator('.point.pin .error').textContent(), /^error [\d.]+ \([\d.]+ %\)$/);
   });
 });
 

@@ -111,6 +111,7 @@ export class Inspector {
       facts.push(h('div', {class: 'weights', title: 'The image lies between these vertices, with these weights'},
         ...place.corners.map((corner, c) => h('span', {text: `${corner} × ${place.bary[c].toFixed(3)}`}))));
       facts.push(h('div', {class: 'more'}, h('span', {title: 'From the image to its nearest vertex', text: `${number(gap)} to the vertex`}),
+        this.errorOf(side, vertex, image, target),
         Number.isFinite(place.confidence) && place.confidence !== null && h('span', {class: 'confidence', text: `confidence ${(100 * place.confidence).toFixed(0)} %`}),
         Number.isFinite(place.distortion) && place.distortion !== null && h('span', {text: `distortion ${number(place.distortion, 2)}`})));
     } else if (mapped) {
@@ -119,6 +120,15 @@ export class Inspector {
     if (mirror) facts.push(h('div', {class: 'more', text: `mirror image: vertex ${mirror.vertex}`}));
     const remove = kind === 'pin' && h('button', {type: 'button', class: 'bare', 'aria-label': `Remove point ${vertex}`, title: 'Remove', on: {click: () => this.unpin(side, vertex)}}, icon('close'));
     return h('li', {class: `point ${kind}`, data}, dot, h('div', {class: 'facts'}, ...facts), remove);
+  }
+
+  /** How far the image is from where the ground truth has it. */
+  errorOf(side, vertex, image, target) {
+    const truth = this.presenter.truth;
+    if (side !== 'source' || !truth || truth[vertex] < 0) return null;
+    const place = pointOf(target.positions, truth[vertex]);
+    const error = Math.hypot(...image.map((value, k) => value - place[k]));
+    return h('span', {class: 'error', title: 'Straight distance to the true place, and that over the square root of the area', text: `error ${number(error)} (${number(100 * error * target.scale, 2)} %)`});
   }
 
   unpin(side, vertex) {

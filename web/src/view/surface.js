@@ -34,7 +34,14 @@ export class Surface {
   }
 
   setAttribute(name, values, width = 3) {
-    this.geometry.setAttribute(name, new BufferAttribute(values, width));
+    const before = this.geometry.getAttribute(name);
+    if (before) {
+      // A buffer that is replaced would stay on the graphics card.
+      before.array = values;
+      before.needsUpdate = true;
+    } else {
+      this.geometry.setAttribute(name, new BufferAttribute(values, width));
+    }
   }
 
   /** Points on the unit sphere; NaN where repair dropped a vertex. */
