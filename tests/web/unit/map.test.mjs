@@ -62,10 +62,19 @@ test('a shape is brought to unit area around the origin', () => {
 });
 
 test('the broad side faces the eye, upright', () => {
-  const flat = Float32Array.from([0.1, 0, 1, 0.1, 2, -1, -0.1, -2, 1, -0.1, 0, -1]); // thin in x, tall in y
+  const flat = Float32Array.from([0.1, 1.9, 1, 0.1, -2, -1, -0.1, -2, 1, -0.1, 2, -1]); // thin in x, tall in y
   const q = broadSide(flat);
   close(turn(q, [0, 1, 0]), [0, 1, 0], 0.2, 'up');
   assert.ok(Math.abs(turn(q, [1, 0, 0])[2]) > 0.95, 'x is the line of sight');
+});
+
+test('a shape that stands along z is shown standing', () => {
+  // A table: thin in x, long in y, four feet at the bottom of z.
+  const table = [[-0.2, -2, 0], [0.2, -2, 0], [-0.2, 2, 0], [0.2, 2, 0], [-0.2, -2, 1.5], [0.2, -2, 1.5], [-0.2, 2, 1.5], [0.2, 2, 1.5], [0, 2.6, 1.8], [0, -2.9, 1.6]];
+  const around = Float32Array.from(table.flatMap(([x, y, z]) => [x, y, z - 0.9]));
+  close(turn(broadSide(around), [0, 0, 1]), [0, 1, 0], 0.2, 'up is z');
+  const laid = Float32Array.from(table.flatMap(([x, y, z]) => [x, z - 0.9, y]));
+  close(turn(broadSide(laid), [0, 1, 0]), [0, 1, 0], 0.2, 'up is y');
 });
 
 test('a grid on the sphere is sampled at the middles of its cells, around and over the poles', () => {

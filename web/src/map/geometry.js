@@ -104,8 +104,7 @@ export function turn([x, y, z, w], [vx, vy, vz]) {
 export const conjugate = ([x, y, z, w]) => [-x, -y, -z, w];
 
 /**
- * The rotation that shows a shape from its broad side: its least extent along the line of sight, and upwards the axis of the file
- * that is tall, y where that can be.
+ * The rotation that shows a shape from its broad side: its least extent along the line of sight, and upright as far as the file tells.
  */
 export function broadSide(positions) {
   const moments = [[0, 0, 0], [0, 0, 0], [0, 0, 0]];
@@ -117,11 +116,34 @@ export function broadSide(positions) {
   const column = (k) => vectors.map((row) => row[k]);
   let sight = column(values.indexOf(Math.min(...values)));
   if (sight[2] < -0.1 || (Math.abs(sight[2]) <= 0.1 && sight[0] < 0)) sight = sight.map((value) => -value);
-  const axis = Math.abs(sight[1]) < 0.8 ? [0, 1, 0] : [0, 0, 1];
+  const axis = [0, 0, 0];
+  axis[uprightAxis(positions, [1, 2].filter((k) => Math.abs(sight[k]) < 0.8))] = 1;
   const along = axis.reduce((sum, value, k) => sum + value * sight[k], 0);
   const up = unit(axis.map((value, k) => value - along * sight[k]));
   const right = cross(up, sight);
   return quaternionOfRows([right, up, sight]);
+}
+
+/**
+ * Files have y or z upwards. y, unless the shape, of which the origin is the centre, would fall over that way and stand on z: unless its
+ * centre is above what touches the ground.
+ */
+function uprightAxis(positions, axes) {
+  if (axes.length < 2) return axes[0] ?? 1;
+  const {low, high} = boundingBox(positions);
+  const stands = (axis) => {
+    const ground = low[axis] + 0.04 * (high[axis] - low[axis]);
+    return [0, 1, 2].filter((k) => k !== axis).every((side) => {
+      let [least, most] = [Infinity, -Infinity];
+      for (let i = 0; i < positions.length; i += 3) {
+        if (positions[i + axis] > ground) continue;
+        least = Math.min(least, positions[i + side]);
+        most = Math.max(most, positions[i + side]);
+      }
+      return least <= 0 && most >= 0;
+    });
+  };
+  return !stands(1) && stands(2) ? 2 : 1;
 }
 
 const unit = (v) => v.map((value) => value / Math.hypot(...v));

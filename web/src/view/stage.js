@@ -135,7 +135,7 @@ export class Stage {
     const camera = this.cameraOf(side);
     const radius = Math.max(...SIDES.map((name) => this.panes[name].radius ?? 0)) || 1;
     const half = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
-    const distance = (radius * 0.96) / half / Math.min(1, aspect);
+    const distance = (radius * 1.02) / half / Math.min(1, aspect);
     pane.group.quaternion.copy(camera.turn);
     pane.eye.aspect = aspect;
     // Zooming narrows the view, so that the eye never enters a shape.
