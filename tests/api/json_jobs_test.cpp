@@ -74,7 +74,8 @@ PairResult sample_result() {
   result.match->n_src = 1;
   result.match->n_tgt = 2;
   result.match->vertex = {1};
-  result.match->reverse = ReverseMap{.n_src = 2, .n_tgt = 1, .vertex = {{0, -1}}, .corners = {}, .bary = {}, .confidence = {{0.5F, 0}}, .distortion = {}};
+  result.match->reverse =
+      ReverseMap{.n_src = 2, .n_tgt = 1, .vertex = {{0, -1}}, .corners = {}, .bary = {}, .confidence = {{0.5F, 0}}, .distortion = {}};
   result.match->orientation = "reverse";
   return result;
 }

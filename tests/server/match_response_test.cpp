@@ -31,7 +31,7 @@ TEST(MatchResponse, OnlyTheSelectedArraysAreTaken) {
   result.quality = {{"coverage", 1}};
   result.seconds = {{"total", 2}};
 
-  StubEngine engine;
+  testing::StubEngine engine;
   engine.version_text = "7";
   const auto shape = std::make_shared<const PreprocessedShape>();
   const MatchedShapes shapes{shape, shape};
