@@ -52,7 +52,10 @@ export async function openPage(browser, options = {}) {
 
 /** Uploads without the page. @returns the shape's id */
 export async function prepare(url, name, bytes = readFileSync(sample(name))) {
-  const shape = await (await fetch(`${url}/shapes?name=${name.split('/').pop()}&wait=60`, {method: 'POST', body: bytes})).json();
+  const upload = `${url}/shapes?name=${name.split('/').pop()}&wait=60`;
+  let shape = await (await fetch(upload, {method: 'POST', body: bytes})).json();
+  // The same bytes again only wait: on a busy machine a large mesh takes its time.
+  for (let tries = 0; tries < 2 && shape.state === 'processing'; ++tries) shape = await (await fetch(upload, {method: 'POST', body: bytes})).json();
   if (shape.state !== 'ready') throw new Error(`${name}: ${JSON.stringify(shape)}`);
   return shape.id;
 }
