@@ -62,6 +62,7 @@ Distortions distortions_of(const Images& images, const Surface& source, const Su
 Eigen::MatrixXd signals_at(const MatchShape& shape, const Points& places) {
   const std::vector<std::string> names = selection_signal_names();
   std::vector<Eigen::Index> channels;
+  channels.reserve(names.size());
   for (const std::string& name : names) channels.push_back(shape.channel(name));
   Eigen::MatrixXd values(places.rows(), static_cast<Eigen::Index>(channels.size()));
   shape.signals().for_each_stencil(places, [&](Eigen::Index i, const GridSamples::Stencil& stencil) {

@@ -71,13 +71,13 @@ void ElasticSystem::add_strain(const PointValues& resting, const MovingSide& mov
     if (!(term.area > 0)) continue;
     strain_ += term.energy;
     area_ += term.area;
-    for (int k = 0; k < 3; ++k) {
-      const std::int32_t node = mesh_.faces()(f, k);
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const Eigen::Index node = mesh_.faces()(f, k);
       right_.segment<2>(2 * node) -= term.gradient.segment<2>(2 * k);
       masses_[node] += term.area / 3;
     }
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
+    for (Eigen::Index i = 0; i < 3; ++i)
+      for (Eigen::Index j = 0; j < 3; ++j)
         matrix_.add(mesh_.face_slots(f)[static_cast<std::size_t>(3 * i + j)], term.curvature.block<2, 2>(2 * i, 2 * j));
   }
 }
