@@ -51,8 +51,8 @@ api::Json to_json(const PreprocessParameters& parameters) {
 
 api::Json to_json(const MatchParameters& parameters) {
   const auto& [rotation_time, rotation_bandwidth, max_candidates, candidate_separation, candidate_threshold, flow_times, flow_resolution,
-               flow_iterations, flow_settled, flow_smoothness, finest_flow, flow_tolerance, flow_detail, flow_detail_from, mesh_flow,
-               elastic_iterations, elastic_area, elastic_yield, elastic_signals, elastic_signal_yield, elastic_spectrum,
+               flow_iterations, flow_repeated, flow_settled, flow_smoothness, finest_flow, flow_tolerance, flow_detail, flow_detail_from,
+               mesh_flow, elastic_iterations, elastic_area, elastic_yield, elastic_signals, elastic_signal_yield, elastic_spectrum,
                elastic_eigenfunctions, elastic_more_eigenfunctions, elastic_longest_move, elastic_settled, fine_candidates, paper_selection,
                orientation, hints, both, candidate] = parameters;
   api::Json pairs = api::Json::array();
@@ -65,6 +65,7 @@ api::Json to_json(const MatchParameters& parameters) {
           {"flow_times", flow_times},
           {"flow_resolution", flow_resolution},
           {"flow_iterations", flow_iterations},
+          {"flow_repeated", flow_repeated},
           {"flow_settled", flow_settled},
           {"flow_smoothness", flow_smoothness},
           {"finest_flow", finest_flow},

@@ -60,6 +60,7 @@ std::vector<Variant> ablation_variants(bool paper) {
   add("elastic: no yielding to signals", &P::elastic_signal_yield, 1e6);
   add("elastic: no eigenfunctions", &P::elastic_spectrum, 0.0);
   add("flow: no detail", &P::flow_detail, 0.0);
+  add("flow: no level repeated", &P::flow_repeated, 0);
   add("one candidate followed", &P::fine_candidates, 1);
   all.push_back({"rotation alone", without_flow({})});
   if (paper) all.push_back({"method=paper", MatchParameters::paper()});

@@ -75,6 +75,7 @@ void MatchParameters::validate() const {
   for (const double t : flow_times) require(positive(t), "flow_times", "must be positive");
   require(flow_resolution >= 8 && flow_resolution <= 32 && flow_resolution % 2 == 0, "flow_resolution", "must be even, 8 to 32");
   require(flow_iterations >= 0 && flow_iterations <= 100, "flow_iterations", "must be 0 to 100");
+  require(flow_repeated >= 0 && flow_repeated <= 5, "flow_repeated", "must be 0 to 5");
   require(fine_candidates >= 1, "fine_candidates", "must be at least 1");
   require(finest_flow >= 8 && finest_flow <= 512 && finest_flow % 2 == 0, "finest_flow", "must be even, 8 to 512");
   require(flow_settled >= 0 && flow_settled < 1, "flow_settled", "must be at least 0 and below 1");
@@ -112,6 +113,7 @@ MatchParameters MatchParameters::paper() {
   parameters.finest_flow = 512;
   parameters.flow_tolerance = 1e-5;
   parameters.flow_iterations = 6;
+  parameters.flow_repeated = 0;
   parameters.flow_settled = 0;
   return parameters;
 }

@@ -77,6 +77,7 @@ struct MatchParameters {
   std::vector<double> flow_times{0.5, 0.25, 0.125, 0.0625};
   int flow_resolution = 16;
   int flow_iterations = 4;        ///< per level, at most
+  int flow_repeated = 1;          ///< how many levels of the coarser half are gone through once more, with the best candidates
   double flow_settled = 0.02;     ///< radians: a level ends with the first step that moves no point farther
   double flow_smoothness = 0.05;  ///< alpha
   int finest_flow = 64;           ///< resolution above which no level is solved; its smoothing stays that of the level

@@ -66,8 +66,7 @@ Eigen::MatrixXd signals_at(const MatchShape& shape, const Points& places) {
   for (const std::string& name : names) channels.push_back(shape.channel(name));
   Eigen::MatrixXd values(places.rows(), static_cast<Eigen::Index>(channels.size()));
   shape.signals().for_each_stencil(places, [&](Eigen::Index i, const GridSamples::Stencil& stencil) {
-    for (std::size_t c = 0; c < channels.size(); ++c)
-      values(i, static_cast<Eigen::Index>(c)) = shape.signals()(stencil, static_cast<std::size_t>(channels[c] / 4))[channels[c] % 4];
+    shape.signals().for_each_value(stencil, channels, [&](std::size_t c, float value) { values(i, static_cast<Eigen::Index>(c)) = value; });
   });
   return values;
 }

@@ -186,16 +186,14 @@ std::vector<std::size_t> flow_candidates(std::vector<Registration>& registration
     std::stable_sort(order.begin(), order.end(), better);
   };
 
-  const std::size_t levels = pair.parameters.flow_times.size();
+  const std::size_t levels = pair.parameters.flow_times.size(), coarse = levels / 2;
   // One more with hints: the best may be there guided and unguided.
   const std::size_t fine = static_cast<std::size_t>(pair.parameters.fine_candidates) + (hinted ? 1 : 0);
-  std::size_t coarse = 0;
-  if (order.size() > fine || hinted) {
-    coarse = levels / 2;
-    flow(0, coarse);
-    order.resize(std::min(fine, order.size()));
-  }
-  flow(coarse, levels);
+  flow(0, coarse);
+  order.resize(std::min(fine, order.size()));
+  // Large differences of pose are not made up for in the iterations of a level. More of them for all candidates would fit wrong ones
+  // better.
+  flow(coarse - std::min(coarse, static_cast<std::size_t>(pair.parameters.flow_repeated)), levels);
 
   if (!pair.parameters.elastic_iterations.empty()) {
     const int threads_each = std::max(1, threads / static_cast<int>(order.size()));

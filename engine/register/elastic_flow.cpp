@@ -21,12 +21,8 @@ PointValues sample(const ElasticChannels& channels, int eigenfunctions, const Po
   PointValues values(places.rows(), static_cast<Eigen::Index>(read.size()));
   for_runs(places.rows(), threads, [&](Eigen::Index first, Eigen::Index last) {
     channels.samples.for_each_stencil(places.middleRows(first, last - first), [&](Eigen::Index i, const GridSamples::Stencil& stencil) {
-      Eigen::Index pack = -1;
-      GridSamples::Pack four;
-      for (std::size_t c = 0; c < read.size(); ++c) {
-        if (read[c] / 4 != pack) four = channels.samples(stencil, static_cast<std::size_t>(pack = read[c] / 4));
-        values(first + i, static_cast<Eigen::Index>(c)) = four[read[c] % 4];
-      }
+      float* row = values.data() + (first + i) * values.cols();
+      channels.samples.for_each_value(stencil, read, [row](std::size_t c, float value) { row[c] = value; });
     });
   });
   return values;
@@ -106,7 +102,8 @@ double flow_elastically(NodeMap& map, const ElasticChannels& source, const Elast
   };
   const NodeMesh& mesh = map.mesh();
   const auto signals = static_cast<Eigen::Index>(source.compared.size());
-  const Eigen::RowVectorXd weights = parameters.signals * Eigen::Map<const Eigen::RowVectorXd>(source.weights.data(), signals);
+  const Eigen::RowVectorXf weights =
+      (parameters.signals * Eigen::Map<const Eigen::RowVectorXd>(source.weights.data(), signals)).cast<float>();
   const EigenfunctionCount eigenfunctions(source, target, parameters);
   Side sides[2] = {{target, hints.target, map.target(), sample(target, eigenfunctions(0), map.target(), threads)},
                    {source, hints.source, map.source(), sample(source, eigenfunctions(1), map.source(), threads)}};
@@ -121,9 +118,10 @@ double flow_elastically(NodeMap& map, const ElasticChannels& source, const Elast
     system.add_differences(t, 3, moving.values.middleCols(3, signals) - resting.values.middleCols(3, signals), weights,
                            parameters.signal_yield, threads);
     if (const int k = eigenfunctions(iteration); k > 0) {
-      const SpectralDifferences spectral =
-          spectral_differences(resting.values.middleCols(3 + signals, k), moving.values.middleCols(3 + signals, k), system.masses());
-      system.add_differences(t, 3 + signals, spectral.values, parameters.spectrum / k * spectral.explained, no_yield, threads);
+      const SpectralDifferences spectral = spectral_differences(resting.values.middleCols(3 + signals, k),
+                                                                moving.values.middleCols(3 + signals, k), system.masses(), threads);
+      system.add_differences(t, 3 + signals, spectral.values, static_cast<float>(parameters.spectrum / k) * spectral.explained, no_yield,
+                             threads);
     }
     add_pairs(system, mesh.faces(), resting.places, resting.hints, moving.places, moving.hints, t.frames);
     const Eigen::VectorXd u = system.solve();

@@ -21,7 +21,7 @@ constexpr int kMostIterations = 200;
 
 TriangleCorners corners(const PointValues& values, const Triangles& faces, Eigen::Index face) {
   TriangleCorners result;
-  for (int k = 0; k < 3; ++k) result[static_cast<std::size_t>(k)] = values.row(faces(face, k)).head<3>();
+  for (int k = 0; k < 3; ++k) result[static_cast<std::size_t>(k)] = values.row(faces(face, k)).head<3>().cast<double>();
   return result;
 }
 
@@ -39,7 +39,8 @@ MovingTriangle MovingSide::triangle(const Triangles& faces, Eigen::Index face) c
   result.corners = corners(values, faces, face);
   for (int k = 0; k < 3; ++k)
     for (int direction = 0; direction < 2; ++direction)
-      result.velocities[static_cast<std::size_t>(k)].col(direction) = derivatives.row(faces(face, k)).segment<3>(direction * values.cols());
+      result.velocities[static_cast<std::size_t>(k)].col(direction) =
+          derivatives.row(faces(face, k)).segment<3>(direction * values.cols()).cast<double>();
   return result;
 }
 
@@ -82,23 +83,23 @@ void ElasticSystem::add_strain(const PointValues& resting, const MovingSide& mov
   }
 }
 
-void ElasticSystem::add_differences(const MovingSide& moving, Eigen::Index first, const Eigen::MatrixXd& differences,
-                                    const Eigen::RowVectorXd& weights, double yield, int threads) {
-  const Eigen::VectorXd squares = differences.cwiseAbs2() * weights.transpose();
+void ElasticSystem::add_differences(const MovingSide& moving, Eigen::Index first, const PointValues& differences,
+                                    const Eigen::RowVectorXf& weights, double yield, int threads) {
+  const Eigen::VectorXd squares = (differences.cwiseAbs2() * weights.transpose()).cast<double>();
   const double mean = squares.dot(masses_) / masses_.sum();
   if (!(mean > 0)) return;
   const Eigen::Index second = moving.values.cols();  // from a derivative along one direction to that along the other
   for_runs(mesh_.count(), threads, [&](Eigen::Index first_node, Eigen::Index last_node) {
     for (Eigen::Index i = first_node; i < last_node; ++i) {
       const double trust = masses_[i] * (1 + yield) / (yield + squares[i] / mean);
-      Eigen::Matrix2d block = Eigen::Matrix2d::Zero();
-      for (Eigen::Index k = 0; k < weights.size(); ++k) {
-        const double weight = trust * weights[k];
-        const Eigen::Vector2d slope(moving.derivatives(i, first + k), moving.derivatives(i, second + first + k));
-        block.noalias() += weight * slope * slope.transpose();
-        right_.segment<2>(2 * i) -= weight * differences(i, k) * slope;
-      }
-      matrix_.add(mesh_.node_slot(i), block);
+      const auto along = moving.derivatives.row(i).segment(first, weights.size()),
+                 across = moving.derivatives.row(i).segment(second + first, weights.size());
+      const Eigen::RowVectorXf weighted_along = weights.cwiseProduct(along), weighted_across = weights.cwiseProduct(across);
+      Eigen::Matrix2d block;
+      block << weighted_along.dot(along), weighted_along.dot(across), weighted_along.dot(across), weighted_across.dot(across);
+      matrix_.add(mesh_.node_slot(i), trust * block);
+      const auto difference = differences.row(i);
+      right_.segment<2>(2 * i) -= trust * Eigen::Vector2d(weighted_along.dot(difference), weighted_across.dot(difference));
     }
   });
 }

@@ -40,7 +40,7 @@ class ElasticSystem {
   /// Squares of differences (nodes, m), of the moving shape's values `first` to `first` + m - 1 less what they are to be, with the weights
   /// of these values. Nodes where they are larger than their mean over the surface by more than the factor `yield` count less and less:
   /// there the shapes differ, or the map is wrong. Needs the masses.
-  void add_differences(const MovingSide& moving, Eigen::Index first, const Eigen::MatrixXd& differences, const Eigen::RowVectorXd& weights,
+  void add_differences(const MovingSide& moving, Eigen::Index first, const PointValues& differences, const Eigen::RowVectorXf& weights,
                        double yield, int threads);
 
   /// A move that the nodes at `places` round a point are to make: many of them, for one alone would turn triangles over.

@@ -16,7 +16,7 @@ class OriginSamples {
   [[nodiscard]] Points at(const Points& points) const {
     Points result(points.rows(), 3);
     samples_.for_each_stencil(points, [&](Eigen::Index i, const GridSamples::Stencil& stencil) {
-      result.row(i) = samples_(stencil, 0).head<3>().matrix().normalized();
+      result.row(i) = samples_(stencil, 0).head<3>().cast<double>().matrix().normalized();
     });
     return result;
   }
@@ -40,15 +40,11 @@ GridFlowSide::GridFlowSide(const GridSamples& samples, const std::vector<Eigen::
 
 std::vector<Harmonics> GridFlowSide::signals(const std::vector<std::size_t>& channels, const HarmonicTransform&,
                                              const HarmonicTransform& on_nodes) const {
+  std::vector<Eigen::Index> read;
+  for (const std::size_t c : channels) read.push_back(channels_[c]);
   std::vector<Grid> grids(channels.size(), Grid(resolution_, resolution_));
   samples_.for_each_stencil(origins_, [&](Eigen::Index node, const GridSamples::Stencil& stencil) {
-    Eigen::Index pack = -1;
-    GridSamples::Pack values;
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-      const Eigen::Index channel = channels_[channels[c]];
-      if (channel / 4 != pack) values = samples_(stencil, static_cast<std::size_t>(pack = channel / 4));
-      grids[c].data()[node] = values[channel % 4];
-    }
+    samples_.for_each_value(stencil, read, [&](std::size_t c, float value) { grids[c].data()[node] = value; });
   });
   std::vector<Harmonics> result;
   for (const Grid& grid : grids) result.push_back(on_nodes.analyze(grid));

@@ -2,11 +2,17 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/sphere/icosphere.h"
 
 namespace spherematch {
+namespace {
+
+constexpr std::size_t kMostNeighbours = 6;  ///< of a node of an icosphere
+
+}  // namespace
 
 TangentFrame tangent_frame(const Eigen::Vector3d& p) {
   const Eigen::Vector3d across = std::abs(p.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
@@ -74,24 +80,35 @@ void NodeMesh::differentiate(const PointValues& values, const Points& places, co
   const Eigen::Index c = values.cols();
   for (Eigen::Index i = first; i < last; ++i) {
     const auto node = static_cast<std::size_t>(i);
-    auto row = result.row(i);
-    row.setZero();
+    // What the value at each of the node's neighbours, and its own, adds to the derivatives: few, while there may be many functions.
+    const std::int32_t first_slot = pattern_.start[node];
+    std::array<Eigen::Vector2d, kMostNeighbours + 1> shares;
+    shares.fill(Eigen::Vector2d::Zero());
     double area = 0;
     for (std::int32_t j = start_[node]; j < start_[node + 1]; ++j) {
-      const auto face = faces().row(face_[static_cast<std::size_t>(j)]);
+      const std::int32_t f = face_[static_cast<std::size_t>(j)];
+      const auto face = faces().row(f);
       const Eigen::Vector3d p[3] = {places.row(face[0]), places.row(face[1]), places.row(face[2])};
       const Eigen::Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
       const double size = normal.norm();
       if (!(size > 0)) continue;
       area += size;
+      const std::size_t self = face[0] == i ? 0 : face[1] == i ? 1 : 2;
       for (int k = 0; k < 3; ++k) {
-        // What a value at corner k adds to the gradient, times twice the area.
-        const Eigen::Vector2d share = frames[node].transpose() * (normal / size).cross(p[(k + 2) % 3] - p[(k + 1) % 3]);
-        row.head(c) += share[0] * values.row(face[k]);
-        row.tail(c) += share[1] * values.row(face[k]);
+        const std::int32_t slot = face_slots_[static_cast<std::size_t>(f)][3 * self + static_cast<std::size_t>(k)];
+        shares[static_cast<std::size_t>(slot - first_slot)] +=
+            frames[node].transpose() * (normal / size).cross(p[(k + 2) % 3] - p[(k + 1) % 3]);  // times twice the area
       }
     }
-    if (area > 0) row /= area;
+    auto row = result.row(i);
+    row.setZero();
+    if (!(area > 0)) continue;
+    for (std::int32_t slot = first_slot; slot < pattern_.start[node + 1]; ++slot) {
+      const Eigen::Vector2f share = (shares[static_cast<std::size_t>(slot - first_slot)] / area).cast<float>();
+      const auto neighbour = values.row(pattern_.column[static_cast<std::size_t>(slot)]);
+      row.head(c) += share[0] * neighbour;
+      row.tail(c) += share[1] * neighbour;
+    }
   }
 }
 

@@ -12,8 +12,8 @@
 
 namespace spherematch {
 
-/// (P, C): C values at each of P points.
-using PointValues = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// (P, C): C values at each of P points. There are many: in single precision.
+using PointValues = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Two orthonormal tangent vectors of the sphere at a point, the columns: what components of a vector there refer to.
 using TangentFrame = Eigen::Matrix<double, 3, 2>;

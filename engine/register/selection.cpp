@@ -17,13 +17,7 @@ double mean_over_sphere(const Grid& values) {
 std::vector<Grid> on_grid(const RegisteredSignals& side, int resolution) {
   std::vector<Grid> grids(side.channels.size(), Grid(resolution, resolution));
   side.signals.for_each_stencil(side.origins, [&](Eigen::Index node, const GridSamples::Stencil& stencil) {
-    Eigen::Index pack = -1;
-    GridSamples::Pack values;
-    for (std::size_t c = 0; c < side.channels.size(); ++c) {
-      const Eigen::Index channel = side.channels[c];
-      if (channel / 4 != pack) values = side.signals(stencil, static_cast<std::size_t>(pack = channel / 4));
-      grids[c].data()[node] = values[channel % 4];
-    }
+    side.signals.for_each_value(stencil, side.channels, [&](std::size_t c, float value) { grids[c].data()[node] = value; });
   });
   return grids;
 }

@@ -8,9 +8,9 @@ namespace {
 constexpr int kBorder = 2;
 
 /// Weights of the samples at -1, 0, 1, 2 for a value at `t` in [0, 1].
-Eigen::Array4d cubic_weights(double t) {
+Eigen::Array4f cubic_weights(double t) {
   const double u = 1 - t;
-  return {-0.5 * t * u * u, 1 + t * t * (1.5 * t - 2.5), 1 + u * u * (1.5 * u - 2.5), -0.5 * u * t * t};
+  return Eigen::Array4d(-0.5 * t * u * u, 1 + t * t * (1.5 * t - 2.5), 1 + u * u * (1.5 * u - 2.5), -0.5 * u * t * t).cast<float>();
 }
 
 }  // namespace
@@ -18,16 +18,18 @@ Eigen::Array4d cubic_weights(double t) {
 GridSamples::GridSamples(const std::vector<Grid>& channels)
     : resolution_(static_cast<int>(channels.front().rows())), stride_(resolution_ + 2 * kBorder), channels_(channels.size()) {
   const int n = resolution_;
-  packs_.assign((channels_ + 3) / 4, std::vector<Pack>(static_cast<std::size_t>(stride_ * stride_), Pack::Zero()));
+  constexpr auto kPack = static_cast<std::size_t>(pack_size);
+  packs_.assign((channels_ + kPack - 1) / kPack, std::vector<Pack>(static_cast<std::size_t>(stride_ * stride_), Pack::Zero()));
   for (std::size_t c = 0; c < channels_; ++c) {
     const Grid& grid = channels[c];
-    Pack* pack = packs_[c / 4].data();
+    Pack* pack = packs_[c / kPack].data();
+    const auto place = static_cast<Eigen::Index>(c % kPack);
     for (int j = -kBorder; j < n + kBorder; ++j) {
       // Beyond a pole lies the opposite meridian.
       const bool beyond = j < 0 || j >= n;
       const int row = j < 0 ? -1 - j : j >= n ? 2 * n - 1 - j : j;
       for (int i = -kBorder; i < n + kBorder; ++i)
-        pack[(j + kBorder) * stride_ + i + kBorder][static_cast<Eigen::Index>(c % 4)] = grid(row, (i + n + (beyond ? n / 2 : 0)) % n);
+        pack[(j + kBorder) * stride_ + i + kBorder][place] = static_cast<float>(grid(row, (i + n + (beyond ? n / 2 : 0)) % n));
     }
   }
 }

@@ -14,15 +14,17 @@
 namespace spherematch {
 
 /// Several functions (channels) on one grid, interpolated by cubic convolution (Keys 1981), whose error is of third order in the
-/// size of a cell. Channels go in packs of four, the last one filled up with zeros. Immutable, thread-safe.
+/// size of a cell. In single precision, as shapes are stored: what is read is limited by memory. Channels go in packs of eight, the last
+/// one filled up with zeros. Immutable, thread-safe.
 class GridSamples {
  public:
-  using Pack = Eigen::Array4d;
+  static constexpr Eigen::Index pack_size = 8;
+  using Pack = Eigen::Array<float, pack_size, 1>;
 
   /// Which samples an evaluation reads, and their weights; the same for all channels.
   struct Stencil {
     std::ptrdiff_t first;  ///< of the 16 samples
-    Eigen::Array4d rows, columns;
+    Eigen::Array4f rows, columns;
   };
 
   /// At least one channel; all of one resolution N, which is even.
@@ -47,7 +49,18 @@ class GridSamples {
     }
   }
 
-  /// The values of channels 4 * pack to 4 * pack + 3.
+  /// Calls visit(c, value) for the value of each channels[c]. Cheapest where channels of one pack follow each other.
+  template <typename Visit>
+  void for_each_value(const Stencil& at, const std::vector<Eigen::Index>& channels, const Visit& visit) const {
+    Eigen::Index pack = -1;
+    Pack values;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      if (channels[c] / pack_size != pack) values = (*this)(at, static_cast<std::size_t>(pack = channels[c] / pack_size));
+      visit(c, values[channels[c] % pack_size]);
+    }
+  }
+
+  /// The values of the channels from pack_size * pack on.
   [[nodiscard]] Pack operator()(const Stencil& at, std::size_t pack) const {
     const Pack* row = packs_[pack].data() + at.first;
     Pack sum = Pack::Zero();

@@ -74,7 +74,7 @@ class Experiments(unittest.TestCase):
         found = json.loads(file.read_text())["sets"]
         self.assertEqual([part["name"] for part in found], ["hounds"])
         names = [variant["name"] for variant in found[0]["variants"]]
-        self.assertEqual(len(names), 11)
+        self.assertEqual(len(names), 12)
         self.assertEqual((names[0], names[-1]), ("default", "rotation alone"))
         for variant in found[0]["variants"]:
             self.assertIn(variant["name"], table)

@@ -371,6 +371,7 @@ TEST(MatchParameters, NameTheInvalidField) {
     expect_invalid(with([&](auto& p) { p.elastic_more_eigenfunctions = count; }), "elastic_more_eigenfunctions");
   }
   expect_invalid(with([&](auto& p) { p.flow_detail_from = -1; }), "flow_detail_from");
+  expect_invalid(with([&](auto& p) { p.flow_repeated = -1; }), "flow_repeated");
   for (const double value : {-1.0, nan, infinity}) {
     expect_invalid(with([&](auto& p) { p.flow_detail = value; }), "flow_detail");
     expect_invalid(with([&](auto& p) { p.elastic_area = value; }), "elastic_area");

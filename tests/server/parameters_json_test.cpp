@@ -38,6 +38,7 @@ TEST(ParametersJson, EveryFieldOfAMatchShows) {
   EXPECT_TRUE(changed(&MatchParameters::elastic_more_eigenfunctions, 7));
   EXPECT_TRUE(changed(&MatchParameters::elastic_longest_move, 0.2));
   EXPECT_TRUE(changed(&MatchParameters::elastic_settled, 0.1));
+  EXPECT_TRUE(changed(&MatchParameters::flow_repeated, 0));
   EXPECT_TRUE(changed(&MatchParameters::fine_candidates, 3));
   EXPECT_TRUE(changed(&MatchParameters::paper_selection, true));
   EXPECT_TRUE(changed(&MatchParameters::orientation, Orientation::reverse));

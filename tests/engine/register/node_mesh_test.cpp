@@ -21,7 +21,7 @@ TEST(NodeMesh, DerivativesAreTheGradient) {
     // Two functions, to see that they are kept apart: |p + c|^2 up to a constant, and x y.
     const Vector3d c(0.3, -0.7, 0.2);
     PointValues values(mesh.count(), 2), derivatives(mesh.count(), 4);
-    values << places * c, places.col(0).cwiseProduct(places.col(1));
+    values << (places * c).cast<float>(), places.col(0).cwiseProduct(places.col(1)).cast<float>();
     std::vector<TangentFrame> frames;
     for (Eigen::Index i = 0; i < places.rows(); ++i) frames.push_back(tangent_frame(places.row(i)));
     mesh.differentiate(values, places, frames, 0, 100, derivatives);
@@ -30,8 +30,9 @@ TEST(NodeMesh, DerivativesAreTheGradient) {
     for (Eigen::Index i = 0; i < places.rows(); ++i)
       for (int f = 0; f < 2; ++f) {
         const Vector3d gradient = f == 0 ? c : Vector3d(places(i, 1), places(i, 0), 0);
-        const Eigen::Vector2d expected = frames[static_cast<std::size_t>(i)].transpose() * gradient;
-        worst = std::max(worst, (expected - Eigen::Vector2d(derivatives(i, f), derivatives(i, 2 + f))).cwiseAbs().maxCoeff());
+        const Eigen::Vector2f expected = (frames[static_cast<std::size_t>(i)].transpose() * gradient).cast<float>();
+        const Eigen::Vector2f error = expected - Eigen::Vector2f(derivatives(i, f), derivatives(i, 2 + f));
+        worst = std::max<double>(worst, error.cwiseAbs().maxCoeff());
       }
     EXPECT_LT(worst, 0.6 * previous);
     previous = worst;

@@ -38,16 +38,22 @@ TEST(GridSamples, KeepTheirChannelsApartAndMeetTheGridAtItsNodes) {
   constexpr int n = 16;
   std::vector<Grid> grids;
   test::Random random(2);
-  for (int c = 0; c < 6; ++c) {
+  for (int c = 0; c < 10; ++c) {
     grids.emplace_back(n, n);
     for (Eigen::Index i = 0; i < grids.back().size(); ++i) grids.back().data()[i] = random.uniform(-1, 1);
   }
   const GridSamples samples(grids);
-  ASSERT_EQ(samples.channels(), 6U);
+  ASSERT_EQ(samples.channels(), 10U);
   ASSERT_EQ(samples.packs(), 2U);
   samples.for_each_stencil(cell_centers(n), [&](Eigen::Index node, const GridSamples::Stencil& stencil) {
-    for (std::size_t c = 0; c < grids.size(); ++c)
-      EXPECT_NEAR(samples(stencil, c / 4)[static_cast<Eigen::Index>(c % 4)], grids[c].data()[node], 1e-8);
+    for (std::size_t c = 0; c < grids.size(); ++c) {
+      constexpr auto kPack = static_cast<std::size_t>(GridSamples::pack_size);
+      EXPECT_NEAR(samples(stencil, c / kPack)[static_cast<Eigen::Index>(c % kPack)], grids[c].data()[node], 1e-6);
+    }
+    const std::vector<Eigen::Index> wanted{9, 2, 3, 8, 8};
+    samples.for_each_value(stencil, wanted, [&](std::size_t c, float value) {
+      EXPECT_NEAR(value, grids[static_cast<std::size_t>(wanted[c])].data()[node], 1e-6);
+    });
   });
 }
 
