@@ -1,5 +1,6 @@
 #include <string>
 
+#include "engine/io/markup.h"
 #include "server/api_document.h"
 
 namespace spherematch {
@@ -31,32 +32,9 @@ section { border-left: 3px solid var(--soft); padding-left: 1rem; }
 <body>
 )";
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 std::string text_of(const Json& object, const char* name) {
   const auto found = object.find(name);
-  return found == object.end() ? std::string() : escaped(found->is_string() ? found->get<std::string>() : found->dump());
+  return found == object.end() ? std::string() : escaped_markup(found->is_string() ? found->get<std::string>() : found->dump());
 }
 
 std::string code(const std::string& text) { return "<code>" + text + "</code>"; }
@@ -71,7 +49,7 @@ const Json& resolved(const Json& document, const Json& value) {
 std::string listed(const Json& values) {
   std::string text;
   for (const Json& value : values)
-    text += (text.empty() ? "" : ", ") + code(escaped(value.is_string() ? value.get<std::string>() : value.dump()));
+    text += (text.empty() ? "" : ", ") + code(escaped_markup(value.is_string() ? value.get<std::string>() : value.dump()));
   return text;
 }
 
@@ -125,7 +103,7 @@ std::string content_of(const Json& holder) {
   std::string text;
   if (!holder.contains("content")) return text;
   for (const auto& [type, media] : holder["content"].items()) {
-    text += (text.empty() ? "" : "<br>") + code(escaped(type));
+    text += (text.empty() ? "" : "<br>") + code(escaped_markup(type));
     const Json& schema = media["schema"];
     if (schema.contains("$ref") || schema.contains("oneOf")) text += " " + schema_words(schema);
   }
@@ -145,8 +123,8 @@ std::string operation_html(const Json& document, const std::string& path, const 
   const Json& operation = item[method];
   std::string upper = method;
   for (char& c : upper) c = static_cast<char>(c - 'a' + 'A');
-  std::string html = "<h3><b>" + upper + "</b> " + code(escaped(path)) + "</h3>\n<section>\n<p>" + text_of(operation, "summary") + ". " +
-                     text_of(operation, "description") + "</p>\n" + parameters_of(document, item, operation);
+  std::string html = "<h3><b>" + upper + "</b> " + code(escaped_markup(path)) + "</h3>\n<section>\n<p>" + text_of(operation, "summary") +
+                     ". " + text_of(operation, "description") + "</p>\n" + parameters_of(document, item, operation);
   if (operation.contains("requestBody")) html += "<p>Body: " + content_of(operation["requestBody"]) + "</p>\n";
   return html + responses_of(document, operation) + "</section>\n";
 }
@@ -180,7 +158,7 @@ std::string api_page(const Json& document) {
   html += "<a href=\"#schemas\">Schemas</a><a href=\"/openapi.json\">openapi.json</a></nav>\n";
   for (const Json& tag : document["tags"]) {
     const std::string name = tag["name"].get<std::string>();
-    html += "<h2 id=\"tag-" + escaped(name) + "\">" + text_of(tag, "description") + "</h2>\n" + operations_of_tag(document, name);
+    html += "<h2 id=\"tag-" + escaped_markup(name) + "\">" + text_of(tag, "description") + "</h2>\n" + operations_of_tag(document, name);
   }
   html += "<h2 id=\"schemas\">Schemas</h2>\n";
   for (const auto& [name, schema] : document["components"]["schemas"].items()) html += schema_html(name, schema);

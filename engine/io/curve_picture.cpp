@@ -6,6 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "engine/io/markup.h"
+
 namespace spherematch {
 
 namespace {
@@ -21,35 +23,12 @@ std::string number(double value, int decimals = 2) {
   return text.data();
 }
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;  // XML has no other control characters
-    }
-  }
-  return result;
-}
-
 double x_of(double share) { return left + share * (right - left); }
 double y_of(double fraction) { return bottom - fraction * (bottom - top); }
 
 std::string text_at(double x, double y, std::string_view anchor, std::string_view text, std::string_view more = {}) {
   return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + std::string(anchor) + "\"" + std::string(more) + ">" +
-         escaped(text) + "</text>\n";
+         escaped_markup(text) + "</text>\n";
 }
 
 std::string line(double x1, double y1, double x2, double y2, std::string_view colour) {

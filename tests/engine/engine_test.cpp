@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <mutex>
-#include <numeric>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,26 +16,14 @@
 #include "engine/spectrum/signatures.h"
 #include "engine/sphere/orientation.h"
 #include "tests/support/meshes.h"
+#include "tests/support/shapes.h"
 #include "tests/support/surface_checks.h"
 
 namespace spherematch {
 namespace {
 
-Surface surface_of(const TriMesh& mesh) {
-  Surface surface;
-  surface.mesh = mesh;
-  surface.uploaded_corners = mesh.faces;
-  surface.surface_vertex.resize(static_cast<std::size_t>(mesh.vertex_count()));
-  std::iota(surface.surface_vertex.begin(), surface.surface_vertex.end(), 0);
-  surface.uploaded_faces = static_cast<std::int32_t>(mesh.face_count());
-  return surface;
-}
-
-template <typename Matrix>
-bool same_bytes(const Matrix& a, const Matrix& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols() &&
-         std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(typename Matrix::Scalar)) == 0;
-}
+using test::quick_preparation;
+using test::same_bytes;
 
 void expect_same_shape(const PreprocessedShape& a, const PreprocessedShape& b) {
   EXPECT_TRUE(same_bytes(a.sphere, b.sphere));
@@ -167,10 +153,10 @@ TEST_P(EngineOnCopies, MapsABodyToItsTurnedAndRenumberedCopy) {
 
   const PreprocessParameters parameters = GetParam() ? exact({}) : PreprocessParameters{};
   Log preparing;
-  const PreprocessedShape source = preprocess(surface_of(body), parameters, preparing.progress(), 2);
+  const PreprocessedShape source = preprocess(test::verbatim_surface(body), parameters, preparing.progress(), 2);
   preparing.expect_rising();
   expect_prepared(source, body, parameters);
-  const PreprocessedShape target = preprocess(surface_of(copy), parameters, {}, 2);
+  const PreprocessedShape target = preprocess(test::verbatim_surface(copy), parameters, {}, 2);
   expect_prepared(target, copy, parameters);
 
   Log matching;
@@ -188,19 +174,8 @@ TEST_P(EngineOnCopies, MapsABodyToItsTurnedAndRenumberedCopy) {
     }
 
   // The same bytes at another number of threads.
-  expect_same_shape(preprocess(surface_of(body), parameters, {}, 1), source);
+  expect_same_shape(preprocess(test::verbatim_surface(body), parameters, {}, 1), source);
   expect_same_match(match(source, target, {}, {}, 1), result);
-}
-
-/// Cheap parameters, for what does not depend on accuracy.
-PreprocessParameters quick() {
-  PreprocessParameters parameters;
-  parameters.conformal_steps = 20;
-  parameters.authalic_resolution = 64;
-  parameters.authalic_steps = 20;
-  parameters.eigenpairs = 60;
-  parameters.signal_resolution = 32;
-  return parameters;
 }
 
 TEST(Engine, TheReverseMapIsTheInverse) {
@@ -211,7 +186,8 @@ TEST(Engine, TheReverseMapIsTheInverse) {
     const double y = 1.2 * b.vertices(v, 1), z = b.vertices(v, 2), angle = 0.15 * z;
     b.vertices.row(v) << 0.9 * b.vertices(v, 0), std::cos(angle) * y - std::sin(angle) * z, std::sin(angle) * y + std::cos(angle) * z;
   }
-  const PreprocessedShape source = preprocess(surface_of(a), quick()), target = preprocess(surface_of(b), quick());
+  const PreprocessedShape source = preprocess(test::verbatim_surface(a), quick_preparation()),
+                          target = preprocess(test::verbatim_surface(b), quick_preparation());
   const MatchResult there = match(source, target), back = match(target, source);
   expect_valid_map(there, b);
   expect_valid_map(back, a);
@@ -245,11 +221,11 @@ TEST(Engine, TheReverseMapIsTheInverse) {
 
 TEST_P(EngineOnCopies, PreprocessingDoesNotDependOnSizeAndPlace) {
   const TriMesh body = test::creature(3);
-  const PreprocessParameters parameters = GetParam() ? exact(quick()) : quick();
-  const PreprocessedShape one = preprocess(surface_of(body), parameters);
+  const PreprocessParameters parameters = GetParam() ? exact(quick_preparation()) : quick_preparation();
+  const PreprocessedShape one = preprocess(test::verbatim_surface(body), parameters);
   for (const double scale : {1e-6, 1e6}) {
-    const PreprocessedShape other =
-        preprocess(surface_of(test::transformed(body, scale, Eigen::Matrix3d::Identity(), scale * Eigen::Vector3d(1, 2, 3))), parameters);
+    const PreprocessedShape other = preprocess(
+        test::verbatim_surface(test::transformed(body, scale, Eigen::Matrix3d::Identity(), scale * Eigen::Vector3d(1, 2, 3))), parameters);
     // Measured: 5e-15; of eigenvalues up to 800, 5e-12 by the exact stages and 6e-4 by the others.
     EXPECT_LT((other.sphere - one.sphere).rowwise().norm().maxCoeff(), 1e-12);
     EXPECT_LT((other.eigenvalues - one.eigenvalues).cwiseAbs().maxCoeff(), GetParam() ? 1e-10 : 2e-3);
@@ -258,7 +234,7 @@ TEST_P(EngineOnCopies, PreprocessingDoesNotDependOnSizeAndPlace) {
 
 TEST(Engine, StopsWithinHalfASecond) {
   // At points spread over the stages. Measured: 0.08 s at most.
-  const Surface surface = surface_of(test::creature(6));
+  const Surface surface = test::verbatim_surface(test::creature(6));
   for (const int milliseconds : {0, 100, 300, 600}) {
     std::stop_source source;
     std::chrono::steady_clock::time_point asked;
@@ -276,7 +252,7 @@ TEST(Engine, StopsWithinHalfASecond) {
 }
 
 TEST(Engine, AMatchStopsWhenAsked) {
-  const PreprocessedShape shape = preprocess(surface_of(test::creature(2)), quick());
+  const PreprocessedShape shape = preprocess(test::verbatim_surface(test::creature(2)), quick_preparation());
   std::stop_source source;
   source.request_stop();
   const Progress progress{{}, source.get_token()};
@@ -286,7 +262,7 @@ TEST(Engine, AMatchStopsWhenAsked) {
 TEST(Engine, PreparesTheSmallestMeshes) {
   for (const TriMesh& mesh : {test::tetrahedron(), test::icosphere(0), test::icosphere(1)}) {
     Log log;
-    const PreprocessedShape shape = preprocess(surface_of(mesh), quick(), log.progress());
+    const PreprocessedShape shape = preprocess(test::verbatim_surface(mesh), quick_preparation(), log.progress());
     log.expect_rising();  // also where the conformal stage has to begin anew
     EXPECT_EQ(shape.sphere_quality.flipped, 0);
     EXPECT_LT(shape.sphere_quality.solid_angle_defect, 1e-12);
@@ -336,7 +312,7 @@ TEST(PreprocessParameters, NameTheInvalidField) {
   expect_invalid(with([&](auto& p) { p.hks_times.clear(); }), "hks_times");
   expect_invalid(with([&](auto& p) { p.hks_times.assign(33, 1.0); }), "hks_times");
   test::expect_refusal(ErrorCode::invalid_parameter,
-                       [&] { (void)preprocess(surface_of(test::icosphere(1)), with([](auto& p) { p.eigenpairs = 0; })); });
+                       [&] { (void)preprocess(test::verbatim_surface(test::icosphere(1)), with([](auto& p) { p.eigenpairs = 0; })); });
 }
 
 TEST(MatchParameters, NameTheInvalidField) {

@@ -2,32 +2,21 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "engine/engine.h"
-#include "engine/mesh/repair.h"
 #include "tests/support/meshes.h"
+#include "tests/support/shapes.h"
 #include "tests/support/surface_checks.h"
 
 namespace spherematch {
 namespace {
 
-/// Cheap parameters, for what does not depend on accuracy.
-PreprocessParameters quick() {
-  PreprocessParameters parameters;
-  parameters.conformal_steps = 20;
-  parameters.authalic_resolution = 64;
-  parameters.authalic_steps = 20;
-  parameters.eigenpairs = 60;
-  parameters.signal_resolution = 32;
-  return parameters;
-}
-
-PreprocessedShape prepared(const TriMesh& mesh) { return preprocess(repair(test::polygons(mesh), RepairMode::none), quick()); }
+using test::quickly_prepared;
+using test::same_bytes;
 
 /// Stretched, and bent about the x axis.
 TriMesh bent(TriMesh mesh) {
@@ -36,12 +25,6 @@ TriMesh bent(TriMesh mesh) {
     mesh.vertices.row(v) << 0.9 * mesh.vertices(v, 0), std::cos(angle) * y - std::sin(angle) * z, std::sin(angle) * y + std::cos(angle) * z;
   }
   return mesh;
-}
-
-template <typename Matrix>
-bool same_bytes(const Matrix& a, const Matrix& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols() &&
-         std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(typename Matrix::Scalar)) == 0;
 }
 
 void expect_same_map(const Correspondence& a, const Correspondence& b) {
@@ -66,7 +49,7 @@ class BothWays : public ::testing::TestWithParam<bool> {};
 
 TEST_P(BothWays, TheReverseMapIsTheInverseOfTheSameRegistration) {
   const TriMesh a = test::creature(3), b = bent(test::creature(4));
-  const PreprocessedShape source = prepared(a), target = prepared(b);
+  const PreprocessedShape source = quickly_prepared(a), target = quickly_prepared(b);
   MatchParameters parameters = GetParam() ? MatchParameters::paper() : MatchParameters{};
   parameters.flow_times = {0.5, 0.25};
   const MatchResult one_way = match(source, target, parameters);
@@ -136,7 +119,7 @@ class MirroredBody : public ::testing::Test {
 
   const TriMesh body_ = test::creature(3), pose_ = bent(body_),
                 image_ = mirror_image(test::transformed(pose_, 2, test::some_rotation(), {1, 2, 3}));
-  const PreprocessedShape source_ = prepared(body_), target_ = prepared(pose_), mirrored_ = prepared(image_);
+  const PreprocessedShape source_ = quickly_prepared(body_), target_ = quickly_prepared(pose_), mirrored_ = quickly_prepared(image_);
 };
 
 TEST_F(MirroredBody, IsMatchedInReverseOnly) {
@@ -159,7 +142,7 @@ TEST_F(MirroredBody, TheSameMapAsOfTheMirroredFile) {
   const MatchResult by_engine = matched(mirrored_, Orientation::reverse);
   MatchParameters parameters;
   parameters.flow_times = {0.5, 0.25};
-  const MatchResult by_file = match(prepared(mirror_image(body_)), mirrored_, parameters);
+  const MatchResult by_file = match(quickly_prepared(mirror_image(body_)), mirrored_, parameters);
   // Measured: 1.4e-3, of shapes prepared coarsely.
   EXPECT_LT(mean_distance(images(by_engine.map, image_), images(by_file.map, image_), image_), 2.8e-3);
 }
@@ -215,7 +198,7 @@ class SymmetricBody : public ::testing::Test {
   }
 
   const TriMesh body_ = test::ellipsoid(3, {1, 1.4, 1.9});
-  const PreprocessedShape shape_ = prepared(body_);
+  const PreprocessedShape shape_ = quickly_prepared(body_);
 };
 
 TEST_F(SymmetricBody, HintsSayWhichWayRound) {
@@ -255,8 +238,8 @@ TEST_F(SymmetricBody, TheNextBestMapsCanBeAskedFor) {
   // All of them fit alike, and of a body without symmetry one does.
   EXPECT_EQ(quality(best, "ambiguous"), 1);
   EXPECT_EQ(quality(next, "ambiguous"), 1);
-  const PreprocessedShape creature = prepared(test::creature(3));
-  const PreprocessedShape unlike = prepared(test::creature(3));
+  const PreprocessedShape creature = quickly_prepared(test::creature(3));
+  const PreprocessedShape unlike = quickly_prepared(test::creature(3));
   EXPECT_EQ(quality(match(unlike, unlike), "ambiguous"), 0);
   parameters.candidate = 2;
   test::expect_refusal(ErrorCode::invalid_parameter, [&] { (void)match(shape_, shape_, parameters); });
@@ -308,7 +291,7 @@ TEST(Hints, PullTogetherWhatRotationAndFlowDoNot) {
     double& x = other.vertices(v, 0);
     x *= x > 0 ? 2.2 : 0.8;
   }
-  const PreprocessedShape source = prepared(body), target = prepared(other);
+  const PreprocessedShape source = quickly_prepared(body), target = quickly_prepared(other);
   MatchParameters parameters;
   const MatchResult unaided = match(source, target, parameters);
   // The ends of the coordinate axes and what is between them.

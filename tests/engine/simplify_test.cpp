@@ -7,20 +7,11 @@
 
 #include "engine/engine.h"
 #include "tests/support/meshes.h"
+#include "tests/support/shapes.h"
 #include "tests/support/surface_checks.h"
 
 namespace spherematch {
 namespace {
-
-PreprocessParameters quick() {
-  PreprocessParameters parameters;
-  parameters.conformal_steps = 20;
-  parameters.authalic_resolution = 64;
-  parameters.authalic_steps = 20;
-  parameters.eigenpairs = 60;
-  parameters.signal_resolution = 32;
-  return parameters;
-}
 
 PreprocessedShape prepared(const TriMesh& mesh, std::int32_t simplify) {
   std::ostringstream off;
@@ -28,7 +19,7 @@ PreprocessedShape prepared(const TriMesh& mesh, std::int32_t simplify) {
   off << "OFF\n" << mesh.vertex_count() << " " << mesh.face_count() << " 0\n" << mesh.vertices << "\n";
   for (Eigen::Index f = 0; f < mesh.face_count(); ++f) off << "3 " << mesh.faces.row(f) << "\n";
   const std::string text = off.str();
-  return preprocess(read_surface(std::as_bytes(std::span(text)), "", {.simplify = simplify}), quick());
+  return preprocess(read_surface(std::as_bytes(std::span(text)), "", {.simplify = simplify}), test::quick_preparation());
 }
 
 /// Valid on the upload, and how far it is from the identity, relative to the square root of the area.

@@ -7,8 +7,8 @@
 
 #include "engine/engine.h"
 #include "engine/evaluate/map_error.h"
-#include "engine/mesh/repair.h"
 #include "tests/support/meshes.h"
+#include "tests/support/shapes.h"
 #include "tests/support/surface_checks.h"
 
 namespace spherematch {
@@ -54,15 +54,6 @@ TriMesh posed(TriMesh mesh) {
 
 class Symmetry : public ::testing::Test {
  protected:
-  static PreprocessedShape prepared(const TriMesh& mesh) {
-    PreprocessParameters parameters;
-    parameters.conformal_steps = 20;
-    parameters.authalic_resolution = 64;
-    parameters.authalic_steps = 20;
-    parameters.eigenpairs = 60;
-    parameters.signal_resolution = 32;
-    return preprocess(repair(test::polygons(mesh), RepairMode::none), parameters);
-  }
   static MatchResult symmetry(const MatchShape& shape, int threads = 2) {
     MatchParameters parameters;
     parameters.orientation = Orientation::reverse;
@@ -102,7 +93,7 @@ TEST_F(Symmetry, OfABodyAtRestAndInAPose) {
       {posed(rest_), 0.055},
       {test::transformed(posed(rest_), 3, test::some_rotation(), {1, 2, 3}), 0.055}};
   for (const auto& [mesh, largest] : cases) {
-    const MatchShape shape(shared(prepared(mesh)));
+    const MatchShape shape(shared(test::quickly_prepared(mesh)));
     const MatchResult result = symmetry(shape);
     EXPECT_TRUE(result.reversed);
     EXPECT_LT(error(result, shape.surface()), largest);
@@ -113,7 +104,7 @@ TEST_F(Symmetry, OfABodyAtRestAndInAPose) {
 
 TEST_F(Symmetry, ExchangesSidesRatherThanChestAndBack) {
   const TriMesh mesh = chest_and_back(3);
-  const MatchShape shape(shared(prepared(mesh)));
+  const MatchShape shape(shared(test::quickly_prepared(mesh)));
   const MatchResult result = symmetry(shape);
   const auto mean = [&](const Eigen::RowVector3d& signs) {
     double sum = 0;
@@ -131,7 +122,7 @@ TEST_F(Symmetry, ExchangesSidesRatherThanChestAndBack) {
 }
 
 TEST_F(Symmetry, IsTheSameAtAnyNumberOfThreads) {
-  const MatchShape shape(shared(prepared(posed(rest_))));
+  const MatchShape shape(shared(test::quickly_prepared(posed(rest_))));
   const MatchResult one = symmetry(shape, 1), two = symmetry(shape, 2);
   EXPECT_EQ(one.map.vertex, two.map.vertex);
   EXPECT_EQ(one.map.bary, two.map.bary);
@@ -142,7 +133,7 @@ TEST_F(Symmetry, OnlyAShapeWithItselfReversedIsAnInvolution) {
   const auto has_residual = [](const MatchResult& result) {
     return std::any_of(result.quality.begin(), result.quality.end(), [](const auto& figure) { return figure.first == "involution_mean"; });
   };
-  const PreprocessedShape shape = prepared(rest_), other = prepared(posed(rest_));
+  const PreprocessedShape shape = test::quickly_prepared(rest_), other = test::quickly_prepared(posed(rest_));
   MatchParameters parameters;
   parameters.flow_times = {0.5, 0.25};
   EXPECT_FALSE(has_residual(match(shape, shape, parameters)));

@@ -4,28 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "tests/engine/sphere/spheres.h"
 #include "tests/support/meshes.h"
+#include "tests/support/shapes.h"
 
 namespace spherematch {
 namespace {
 
 using test::icosphere;
 using test::Random;
-
-/// A surface whose upload is the mesh itself.
-Surface plain(const TriMesh& mesh) {
-  Surface surface;
-  surface.mesh = mesh;
-  surface.uploaded_corners = mesh.faces;
-  surface.surface_vertex.resize(static_cast<std::size_t>(mesh.vertex_count()));
-  std::iota(surface.surface_vertex.begin(), surface.surface_vertex.end(), 0);
-  surface.uploaded_faces = static_cast<std::int32_t>(mesh.face_count());
-  return surface;
-}
+using test::verbatim_surface;
 
 /// An octahedron from an upload of nine vertices: 0 dropped, 3 and 7 welded to surface vertex 2 (the pole), the others in
 /// reverse order. Two faces meet the pole at upload 3, two at upload 7.
@@ -57,7 +47,7 @@ Eigen::Vector3d image(const Surface& target, const Correspondence& map, Eigen::I
 
 TEST(Compose, OfTheIdentityIsTheIdentity) {
   const TriMesh body = test::creature(3);
-  const Surface surface = plain(body);
+  const Surface surface = verbatim_surface(body);
   const Points sphere = body.vertices.rowwise().normalized();
   const Correspondence map = compose(surface, surface, locate_all(sphere, PointLocation(sphere, body.faces)));
   ASSERT_EQ(static_cast<Eigen::Index>(map.vertex.size()), body.vertex_count());
@@ -98,7 +88,7 @@ TEST(Compose, SpeaksOfUploadedVertices) {
 }
 
 TEST(Compose, BreaksTiesByTheLowestUploadedIndex) {
-  const Surface source = plain(test::octahedron());
+  const Surface source = verbatim_surface(test::octahedron());
   Surface target = patched_octahedron();
   // Face 4 has surface corners 1, 0, 5, uploaded 5, 6, 1.
   ASSERT_EQ(target.uploaded_corners.row(4), Eigen::RowVector3i(5, 6, 1));
@@ -114,7 +104,7 @@ TEST(Compose, BreaksTiesByTheLowestUploadedIndex) {
 
 TEST(Compose, TakesTheNearestCornerByStraightDistanceNotByWeight) {
   // Face 0 is (0, 1, 2). Corner 2 has the most weight but stands so far away that the image is nearer to corner 1.
-  const Surface source = plain(test::octahedron());
+  const Surface source = verbatim_surface(test::octahedron());
   Surface target = source;
   target.mesh.vertices.row(2) << 0, 0, 10;
   const Correspondence map = compose(source, target, std::vector<Location>(6, {0, {0.06, 0.46, 0.48}}));
@@ -127,7 +117,7 @@ TEST(Compose, TakesTheNearestCornerByStraightDistanceNotByWeight) {
 TEST(Compose, MovesImagesOnAddedPatchesToTheUploadedSurface) {
   // The pole of an icosphere was added by repair: no upload has it.
   const TriMesh mesh = icosphere(2);
-  Surface target = plain(mesh);
+  Surface target = verbatim_surface(mesh);
   const std::int32_t added = 25;
   target.surface_vertex.erase(target.surface_vertex.begin() + added);
   for (Eigen::Index i = 0; i < target.uploaded_corners.size(); ++i) {
@@ -135,7 +125,7 @@ TEST(Compose, MovesImagesOnAddedPatchesToTheUploadedSurface) {
     u = u == added ? -1 : (u > added ? u - 1 : u);
   }
   target.report.added_vertices = 1;
-  const Surface source = plain(mesh);
+  const Surface source = verbatim_surface(mesh);
   const std::vector<Location> locations = locate_all(mesh.vertices, PointLocation(mesh.vertices, mesh.faces));
   const Correspondence map = compose(source, target, locations);
   EXPECT_GE(map.corners.minCoeff(), 0);
