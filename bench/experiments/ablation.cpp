@@ -1,15 +1,13 @@
 // What each part of a match contributes: errors and times with the part changed or left out.
 #include <algorithm>
 #include <cstdio>
-#include <map>
-#include <memory>
 
 #include "bench/experiments/experiments.h"
 #include "bench/experiments/pair_list.h"
+#include "bench/experiments/prepared_shapes.h"
 #include "bench/experiments/report.h"
 #include "bench/experiments/variants.h"
 #include "bench/stage_times.h"
-#include "cli/preparation.h"
 #include "engine/engine.h"
 #include "engine/evaluate/map_error.h"
 
@@ -66,16 +64,11 @@ ScoredMap score(const MatchShape& source, const MatchShape& target, const MatchP
 
 /// Every variant of a pair before the next pair, so that what else the machine does falls on all alike.
 std::vector<Row> run_set(const PairSet& set, ShapeStore& store, const std::vector<Variant>& variants, const AblationSettings& settings) {
-  std::map<std::filesystem::path, std::unique_ptr<const MatchShape>> shapes;
-  const auto shape_of = [&](const std::filesystem::path& file) -> const MatchShape& {
-    auto& shape = shapes[file];
-    if (!shape) shape = std::make_unique<const MatchShape>(prepare_file(store, file, {.read = {}, .threads = settings.threads}).shape);
-    return *shape;
-  };
+  PreparedShapes shapes(store, settings.threads);
   std::vector<Row> rows;
   for (const Variant& variant : variants) rows.push_back({variant.name, {}});
   for (const ListedPair& pair : set.pairs) {
-    const MatchShape &source = shape_of(pair.source), &target = shape_of(pair.target);
+    const MatchShape &source = shapes(pair.source), &target = shapes(pair.target);
     const GroundTruth truth = truth_of(pair, source.surface(), target.surface());
     for (std::size_t v = 0; v < variants.size(); ++v)
       rows[v].maps.push_back(score(source, target, variants[v].parameters, truth, settings));
@@ -122,8 +115,7 @@ void run_ablation(const AblationSettings& settings) {
   const std::vector<Variant> variants = ablation_variants(settings.paper);
   ShapeStore store(settings.store);
   Json json{{"experiment", "ablation"}, {"engine", engine_version()}, {"runs", settings.runs}, {"sets", Json::array()}};
-  for (PairSet& set : read_pair_list(settings.pairs, settings.data)) {
-    if (settings.most_pairs > 0) set.pairs.resize(std::min(set.pairs.size(), static_cast<std::size_t>(settings.most_pairs)));
+  for (const PairSet& set : read_pair_list(settings)) {
     const std::vector<Row> rows = run_set(set, store, variants, settings);
     print(set, rows);
     json["sets"].push_back(to_json(set, rows));

@@ -26,4 +26,8 @@ void run_authalic(const ExperimentSettings& settings, const std::vector<int>& st
 /// for each set, and writes settings.json after each.
 void run_ablation(const AblationSettings& settings);
 
+/// Pairs of a list matched without hints and with some that are right or wrong: geodesic errors. Prints a line for each pair, and writes
+/// settings.json after each set.
+void run_hints(const PairListSettings& settings);
+
 }  // namespace spherematch::bench

@@ -24,7 +24,8 @@ ListedPair pair_of(const nlohmann::json& entry, const fs::path& folder) {
 
 }  // namespace
 
-std::vector<PairSet> read_pair_list(const fs::path& file, const fs::path& data) {
+std::vector<PairSet> read_pair_list(const PairListSettings& settings) {
+  const fs::path file = settings.pairs;
   std::ifstream in(file);
   if (!in) throw std::runtime_error(file.string() + ": cannot be read");
   std::vector<PairSet> sets;
@@ -34,7 +35,8 @@ std::vector<PairSet> read_pair_list(const fs::path& file, const fs::path& data) 
       const std::string name = entry.at("set");
       auto set = std::find_if(sets.begin(), sets.end(), [&](const PairSet& known) { return known.name == name; });
       if (set == sets.end()) set = sets.insert(sets.end(), PairSet{name, {}});
-      set->pairs.push_back(pair_of(entry, data / name));
+      if (settings.most_pairs == 0 || set->pairs.size() < static_cast<std::size_t>(settings.most_pairs))
+        set->pairs.push_back(pair_of(entry, fs::path(settings.data) / name));
     }
   } catch (const std::exception& error) {
     throw std::runtime_error(file.string() + ": " + error.what());

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/experiments/settings.h"
 #include "engine/data/evaluation.h"
 #include "engine/data/surface.h"
 
@@ -22,8 +23,8 @@ struct PairSet {
 };
 
 /// Of {"pairs": [{"set", "src", "tgt", "truth": "identity" or "vts"}]}, with meshes at DATA/SET/NAME.off; sets in the order of their first
-/// pairs. @throws std::runtime_error naming the file
-[[nodiscard]] std::vector<PairSet> read_pair_list(const std::filesystem::path& file, const std::filesystem::path& data);
+/// pairs, with the first of their pairs where the settings want no more. @throws std::runtime_error naming the file
+[[nodiscard]] std::vector<PairSet> read_pair_list(const PairListSettings& settings);
 
 /// Landmarks, or where the truth is the identity some vertices of the source, drawn by area and always the same.
 /// @throws std::runtime_error where the lists that should be there are not

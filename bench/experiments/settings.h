@@ -22,15 +22,19 @@ struct ExperimentSettings {
   }
 };
 
-struct AblationSettings {
+/// Of experiments on a list of pairs.
+struct PairListSettings {
   std::string pairs = "samples/pairs.json";
   std::string data = "samples";            ///< folder of the sets' folders
   std::string store = "data/ablation.db";  ///< of prepared shapes
-  std::string json;                        ///< empty for none
+  std::string json{};                      ///< empty for none
   int most_pairs = 0;                      ///< the first ones of each set; 0 for all
-  int runs = 1;                            ///< of each match, of which the median time is taken
-  bool paper = false;                      ///< also the paper's method
   int threads = 2;
+};
+
+struct AblationSettings : PairListSettings {
+  int runs = 1;        ///< of each match, of which the median time is taken
+  bool paper = false;  ///< also the paper's method
 };
 
 }  // namespace spherematch::bench

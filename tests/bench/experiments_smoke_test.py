@@ -82,6 +82,13 @@ class Experiments(unittest.TestCase):
             self.assertLess(variant["error"], 0.05)  # of a shape with itself
             self.assertLessEqual(variant["error"], variant["worst"])
             self.assertGreater(variant["seconds"], 0)
+        hints = ("hints", *ablation[1:], "--most-pairs", 1)
+        self.assertIn("two wrong", run(PROGRAM, *hints).stdout)
+        errors = json.loads(file.read_text())["pairs"][0]["errors"]
+        self.assertEqual([(error["hints"], error["wrong"]) for error in errors], [(0, 0), (1, 0), (3, 0), (5, 0), (5, 1), (10, 2)])
+        for error in errors[:4]:
+            self.assertLess(error["error"], 0.05)
+            self.assertFalse(error["flipped"])
         (folder / "b.vts").unlink()
         done = run(PROGRAM, *ablation, check=False)
         self.assertEqual(done.returncode, 1)

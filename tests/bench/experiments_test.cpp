@@ -71,19 +71,20 @@ TEST_F(ShapeFolder, PairsOfAListComeBySet) {
   write("pairs.json",
         R"({"pairs": [{"set": "x", "src": "a", "tgt": "b", "truth": "vts"}, {"set": "y", "src": "a", "tgt": "c", "truth": "identity"},
                          {"set": "x", "src": "b", "tgt": "a", "truth": "vts", "reference": {}}]})");
-  const std::vector<PairSet> sets = read_pair_list(place / "pairs.json", place);
+  const std::vector<PairSet> sets = read_pair_list({.pairs = place / "pairs.json", .data = place});
   ASSERT_EQ(sets.size(), 2U);
   EXPECT_EQ(sets[0].name, "x");
   ASSERT_EQ(sets[0].pairs.size(), 2U);
   EXPECT_EQ(sets[0].pairs[1].source, place / "x" / "b.off");
   EXPECT_FALSE(sets[0].pairs[1].identity);
   EXPECT_TRUE(sets[1].pairs.at(0).identity);
+  EXPECT_EQ(read_pair_list({.pairs = place / "pairs.json", .data = place, .most_pairs = 1}).at(0).pairs.size(), 1U);
   for (const char* wrong :
        {"", "[]", R"({"pairs": [{"set": "x", "src": "a", "tgt": "b", "truth": "x"}]})", R"({"pairs": [{"set": "x"}]})"}) {
     write("wrong.json", wrong);
-    EXPECT_THROW((void)read_pair_list(place / "wrong.json", place), std::runtime_error) << wrong;
+    EXPECT_THROW((void)read_pair_list({.pairs = place / "wrong.json", .data = place}), std::runtime_error) << wrong;
   }
-  EXPECT_THROW((void)read_pair_list(place / "none.json", place), std::runtime_error);
+  EXPECT_THROW((void)read_pair_list({.pairs = place / "none.json", .data = place}), std::runtime_error);
 }
 
 TEST_F(ShapeFolder, TheTruthOfAPairIsWhatItsListSays) {
