@@ -22,6 +22,12 @@ constexpr std::array<std::pair<std::string_view, MapFormat>, 8> formats{{
     {"png", MapFormat::png},
 }};
 
+std::string encode_ply(PolygonMesh source_mesh, const Correspondence& map, const Surface& target, VertexQuality quality) {
+  MapMesh painted = paint_mesh(std::move(source_mesh), map, target);
+  painted.quality = std::move(quality);
+  return encode_ply(painted);
+}
+
 }  // namespace
 
 std::vector<std::string_view> map_format_names() {
@@ -42,10 +48,13 @@ bool needs_source_mesh(MapFormat format) { return format == MapFormat::ply || fo
 
 bool needs_surfaces(MapFormat format) { return needs_source_mesh(format) || format == MapFormat::png; }
 
-std::string encode_map(MapFormat format, const Correspondence& map, const Surface& source, const Surface& target, PolygonMesh source_mesh) {
+bool holds_quality(MapFormat format) { return format == MapFormat::npz || format == MapFormat::ply; }
+
+std::string encode_map(MapFormat format, const Correspondence& map, const Surface& source, const Surface& target, PolygonMesh source_mesh,
+                       VertexQuality quality) {
   switch (format) {
     case MapFormat::npz:
-      return encode_npz(map);
+      return encode_npz(map, quality);
     case MapFormat::npy:
       return encode_npy(map);
     case MapFormat::text:
@@ -53,7 +62,7 @@ std::string encode_map(MapFormat format, const Correspondence& map, const Surfac
     case MapFormat::list_from_one:
       return encode_list_from_one(map);
     case MapFormat::ply:
-      return encode_ply(paint_mesh(std::move(source_mesh), map, target));
+      return encode_ply(std::move(source_mesh), map, target, std::move(quality));
     case MapFormat::glb:
       return encode_glb(paint_mesh(std::move(source_mesh), map, target));
     case MapFormat::obj:

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/data/correspondence.h"
+#include "engine/data/evaluation.h"
 #include "engine/data/surface.h"
 #include "engine/io/polygon_mesh.h"
 
@@ -26,11 +27,14 @@ enum class MapFormat { npz, npy, text, list_from_one, ply, glb, obj, png };
 /// Whether encode_map() needs the two surfaces.
 [[nodiscard]] bool needs_surfaces(MapFormat format);
 
+/// Whether the file has room for confidence and distortion beside the map.
+[[nodiscard]] bool holds_quality(MapFormat format);
+
 /// The file's bytes; they depend on the arguments alone. `source_mesh` is the uploaded mesh that `source` was made of. What is not
-/// needed may be empty. Thread-safe.
+/// needed may be empty, and arrays of `quality` that are empty are left out. Thread-safe.
 /// @throws std::invalid_argument when the source and the map differ in their number of vertices, or the map goes to vertices that the
 /// target does not have
 [[nodiscard]] std::string encode_map(MapFormat format, const Correspondence& map, const Surface& source, const Surface& target,
-                                     PolygonMesh source_mesh = {});
+                                     PolygonMesh source_mesh = {}, VertexQuality quality = {});
 
 }  // namespace spherematch

@@ -4,15 +4,18 @@
 #include <string>
 
 #include "engine/data/correspondence.h"
+#include "engine/data/evaluation.h"
 #include "engine/data/tri_mesh.h"
 
 namespace spherematch {
 
-/// A zip of `vertex.npy` int32 (n,), `corners.npy` int32 (n, 3) and `bary.npy` float32 (n, 3), stored uncompressed.
-[[nodiscard]] std::string encode_npz(const Correspondence& map);
+/// A zip of `vertex.npy` int32 (n,), `corners.npy` int32 (n, 3) and `bary.npy` float32 (n, 3), stored uncompressed; and of
+/// `confidence.npy` and `distortion.npy`, float32 (n,), where they are not empty.
+[[nodiscard]] std::string encode_npz(const Correspondence& map, const VertexQuality& quality = {});
 
 /// The same, and the arrays of the map in the other direction under `reverse_vertex.npy` and so on.
-[[nodiscard]] std::string encode_npz(const Correspondence& map, const Correspondence& reverse);
+[[nodiscard]] std::string encode_npz(const Correspondence& map, const Correspondence& reverse, const VertexQuality& quality = {},
+                                     const VertexQuality& reverse_quality = {});
 
 /// `vertex` as NPY, int32 (n,).
 [[nodiscard]] std::string encode_npy(const Correspondence& map);

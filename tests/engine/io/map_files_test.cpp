@@ -136,6 +136,28 @@ TEST(MapPly, FarFromTheOriginNumbersAreDouble) {
   expect_body<double, std::uint8_t>(Ply(encode_ply(far_target)), far_target);
 }
 
+TEST(MapPly, QualityFollowsTheImage) {
+  MapMesh painted = painted_identity(cube());
+  painted.quality = {.distortion = {0, 1, 2, 3, 0, 0, 0, 0.5F}, .confidence = {1, 0.75F, 0, 0, 0, 0, 0, 0.25F}};
+  for (const bool far : {false, true}) {
+    if (far) painted.mesh.vertices.rowwise() += Eigen::RowVector3d(5e5, 4e6, 0);
+    Ply ply(encode_ply(painted));
+    EXPECT_EQ(ply.header[12], "property float confidence");
+    EXPECT_EQ(ply.header[13], "property float distortion");
+    const std::size_t others = far ? 6 * sizeof(double) + 3 : 6 * sizeof(float) + 3;
+    for (std::size_t v = 0; v < 8; ++v) {
+      ply.position += others;
+      EXPECT_EQ(ply.next<float>(), painted.quality.confidence[v]);
+      EXPECT_EQ(ply.next<float>(), painted.quality.distortion[v]);
+    }
+    EXPECT_EQ(read_back(encode_ply(painted)).vertices, painted.mesh.vertices);
+  }
+  painted.quality.confidence.clear();
+  const Ply less(encode_ply(painted));
+  EXPECT_EQ(less.header[12], "property float distortion");
+  EXPECT_TRUE(less.header[13].starts_with("element face"));
+}
+
 TEST(MapPly, LargePolygonsFit) {
   const MapMesh small = painted_identity(prism(255));
   expect_body<float, std::uint8_t>(Ply(encode_ply(small)), small);

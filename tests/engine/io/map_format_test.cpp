@@ -21,6 +21,11 @@ TEST(MapFormat, EveryNameIsKnownAndEncodes) {
     const MapFormat format = map_format_of(names[i]).value();
     const std::string bytes = encode_map(format, map, surface, surface, needs_source_mesh(format) ? mesh : PolygonMesh{});
     EXPECT_TRUE(bytes.starts_with(beginnings[i])) << names[i];
+    const VertexQuality quality{.distortion = std::vector<float>(map.vertex.size(), 0.5F), .confidence = {}};
+    const std::string judged = encode_map(format, map, surface, surface, needs_source_mesh(format) ? mesh : PolygonMesh{}, quality);
+    EXPECT_EQ(judged.find("distortion") != std::string::npos, holds_quality(format)) << names[i];
+    EXPECT_EQ(judged.find("confidence"), std::string::npos) << names[i];
+    EXPECT_EQ(judged == bytes, !holds_quality(format)) << names[i];
     if (needs_source_mesh(format)) {
       EXPECT_THROW((void)encode_map(format, map, surface, surface), std::invalid_argument);
     }

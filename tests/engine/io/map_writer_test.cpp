@@ -121,6 +121,24 @@ TEST(MapWriter, NpzHoldsTheThreeArraysStored) {
   }
 }
 
+TEST(MapWriter, NpzHoldsTheQualityThatIsGiven) {
+  const VertexQuality quality{.distortion = {0.5F, 0}, .confidence = {0.75F, 0}};
+  const std::vector<Entry> whole = unzip(encode_npz(some_map(2), quality));
+  ASSERT_EQ(whole.size(), 5U);
+  EXPECT_EQ(whole[3].name, "confidence.npy");
+  EXPECT_EQ(parse_npy(whole[3].content).header, "{'descr': '<f4', 'fortran_order': False, 'shape': (2,), }");
+  EXPECT_EQ(numbers_of<float>(parse_npy(whole[3].content)), quality.confidence);
+  EXPECT_EQ(whole[4].name, "distortion.npy");
+  EXPECT_EQ(numbers_of<float>(parse_npy(whole[4].content)), quality.distortion);
+
+  const VertexQuality reverse_quality{.distortion = {1, 2, 3}, .confidence = {}};
+  const std::vector<Entry> both = unzip(encode_npz(some_map(2), some_map(3), quality, reverse_quality));
+  ASSERT_EQ(both.size(), 9U);
+  EXPECT_EQ(both[3].content, whole[3].content);
+  EXPECT_EQ(both[8].name, "reverse_distortion.npy");
+  EXPECT_EQ(numbers_of<float>(parse_npy(both[8].content)), reverse_quality.distortion);
+}
+
 TEST(MapWriter, BytesDependOnTheMapAlone) {
   const std::string bytes = encode_npz(some_map(10));
   EXPECT_EQ(bytes, encode_npz(some_map(10)));
