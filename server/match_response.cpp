@@ -24,8 +24,7 @@ void select(Map& to, const Correspondence& from, const MatchFields& fields) {
 template <typename Map>
 void add_quality(Map& to, const Correspondence& from, const MatchFields& fields, const EnginePort& engine, const ShapePointer& source,
                  const ShapePointer& target) {
-  if (!fields.quality()) return;
-  VertexQuality quality = engine.vertex_quality(source, target, from);
+  VertexQuality quality = quality_of(from, fields, engine, source, target);
   if (fields.confidence) to.confidence = std::move(quality.confidence);
   if (fields.distortion) to.distortion = std::move(quality.distortion);
 }
@@ -59,6 +58,15 @@ MatchFields parse_fields(std::string_view text) {
 std::string canonical(const MatchFields& fields) {
   return std::string(fields.vertex ? "vertex," : "") + (fields.corners ? "corners," : "") + (fields.bary ? "bary" : "") +
          (fields.confidence ? ",confidence" : "") + (fields.distortion ? ",distortion" : "");
+}
+
+VertexQuality quality_of(const Correspondence& map, const MatchFields& fields, const EnginePort& engine, const ShapePointer& source,
+                         const ShapePointer& target) {
+  if (!fields.quality()) return {};
+  VertexQuality quality = engine.vertex_quality(source, target, map);
+  if (!fields.confidence) quality.confidence.clear();
+  if (!fields.distortion) quality.distortion.clear();
+  return quality;
 }
 
 api::Match match_of(const MatchQuery& query, const MatchAnswer& answer, const MatchFields& fields, std::int32_t n_tgt,

@@ -9,7 +9,7 @@
 
 namespace spherematch {
 
-/// The arrays that JSON carries; the others are always whole.
+/// The arrays of an answer. Files have their map whole, and of these take confidence and distortion alone (routes_match.cpp).
 struct MatchFields {
   bool vertex = true;
   bool corners = false;
@@ -31,6 +31,11 @@ struct MatchFields {
 struct MatchedShapes {
   ShapePointer source, target;
 };
+
+/// What to think of a map between these shapes. What the fields do not ask for stays empty, and the shapes may be null where they ask for
+/// neither.
+[[nodiscard]] VertexQuality quality_of(const Correspondence& map, const MatchFields& fields, const EnginePort& engine,
+                                       const ShapePointer& source, const ShapePointer& target);
 
 /// With the reverse map where the query asks for both. Fields of quality need the shapes.
 [[nodiscard]] api::Match match_of(const MatchQuery& query, const MatchAnswer& answer, const MatchFields& fields, std::int32_t n_tgt,

@@ -41,16 +41,26 @@ struct MatchRequest {
   std::int32_t n_tgt = 0;  ///< vertices of the target
 };
 
+/// JSON has the arrays that are named. Files have their map whole, and some what is named besides.
+MatchFields fields_for(std::string_view format, std::string_view named) {
+  const MatchFields fields = parse_fields(named);
+  if (format == "json") return fields;
+  if (!holds_quality(*map_format_of(format))) {
+    throw ProblemError(api::Code::invalid_parameter, "fields: applies to json, npz and ply only; the other formats are whole");
+  }
+  if (fields.vertex || fields.corners || fields.bary) {
+    throw ProblemError(api::Code::invalid_parameter,
+                       "fields: npz and ply have their map whole; confidence and distortion are all that can be added to it");
+  }
+  return fields;
+}
+
 /// What both routes read of how to answer a query.
 MatchRequest request_for(MatchQuery query, const HttpRequest& from, const RequestParameters& parameters) {
   MatchRequest request;
   request.query = std::move(query);
   request.representation = &choose_representation(parameters.text("format"), from.header("accept"), representations);
-  const std::string_view format = request.representation->format;
-  if (const auto fields = parameters.text("fields")) {
-    if (format != "json") throw ProblemError(api::Code::invalid_parameter, "fields: applies to JSON only; the other formats are whole");
-    request.fields = parse_fields(*fields);
-  }
+  if (const auto fields = parameters.text("fields")) request.fields = fields_for(request.representation->format, *fields);
   request.wait = parameters.seconds("wait", 30, max_wait_seconds);
   request.cache = cache_of(parameters);
   return request;
@@ -81,7 +91,7 @@ struct Ingredients {
 
 Ingredients gather(const ServerContext& context, const MatchRequest& request, const std::optional<MapFormat>& format) {
   Ingredients ingredients;
-  if (format ? needs_surfaces(*format) : request.fields.quality()) {
+  if (request.fields.quality() || (format && needs_surfaces(*format))) {
     ingredients.shapes.source = context.shapes.load(request.query.src);
     ingredients.shapes.target = context.shapes.load(request.query.tgt);
   }
@@ -96,10 +106,14 @@ std::string encode(const ServerContext& context, const MatchRequest& request, co
     const api::Match match = match_of(request.query, answer, request.fields, request.n_tgt, context.engine, ingredients.shapes);
     return api::to_text(api::to_json(match)) + "\n";
   }
-  if (*format == MapFormat::npz && request.query.parameters.both) return encode_npz(result.map, result.reverse);
+  const auto& [source, target] = ingredients.shapes;
+  VertexQuality quality = quality_of(result.map, request.fields, context.engine, source, target);
+  if (*format == MapFormat::npz && request.query.parameters.both) {
+    return encode_npz(result.map, result.reverse, quality, quality_of(result.reverse, request.fields, context.engine, target, source));
+  }
   const Surface none;
-  return encode_map(*format, result.map, ingredients.shapes.source ? ingredients.shapes.source->surface : none,
-                    ingredients.shapes.target ? ingredients.shapes.target->surface : none, std::move(ingredients.source_mesh));
+  return encode_map(*format, result.map, source ? source->surface : none, target ? target->surface : none,
+                    std::move(ingredients.source_mesh), std::move(quality));
 }
 
 HttpResponse compute(const ServerContext& context, const MatchRequest& request) {

@@ -23,7 +23,7 @@ class DocsTest(support.TestCase):
         self.assertIn(str(server.port), script)
         done = subprocess.run(['bash', '-c', script], cwd=place, capture_output=True, text=True, timeout=120)
         self.assertEqual(done.returncode, 0, done.stderr)
-        for name in ('map.npz', 'map.txt', 'map.ply', 'map.png', 'sphere.npy', 'mesh.glb', 'sphere.ply', 'hks.npz', 'carried.ply', 'carried.png', 'thumbnail.png', 'carried.npy', 'curve.svg', 'scene.glb', 'symmetry.npz'):
+        for name in ('map.npz', 'map.txt', 'map.ply', 'map.png', 'sphere.npy', 'mesh.glb', 'sphere.ply', 'hks.npz', 'carried.ply', 'carried.png', 'thumbnail.png', 'carried.npy', 'curve.svg', 'scene.glb', 'symmetry.npz', 'judged.npz'):
             self.assertGreater(os.path.getsize(f'{place}/{name}'), 100, name)
         self.assertIn('\n304\n', done.stdout)
         problems = re.findall(r'"code":"([^"]+)"', done.stdout)

@@ -1,6 +1,7 @@
 """Matches in every format: what they contain, that they agree, and that their bytes stay the same."""
 import json
 import math
+import struct
 import threading
 import time
 import unittest
@@ -10,6 +11,11 @@ import support
 
 SRC = support.bumpy(3)
 TGT = support.bumpy(3, 1.0)
+
+
+def as_float(number):
+    """As single precision has it."""
+    return struct.unpack('<f', struct.pack('<f', number))[0]
 
 
 class MatchTest(support.TestCase):
@@ -35,12 +41,32 @@ class MatchTest(support.TestCase):
         self.assertEqual({name: kind for name, (kind, _) in npz.items()}, {'vertex': '<i4', 'corners': '<i4', 'bary': '<f4'})
         self.assertEqual(npz['vertex'][1], whole['vertex'])
         self.assertEqual(npz['corners'][1], whole['corners'])
-        import struct
-        as_float = [[struct.unpack('<f', struct.pack('<f', x))[0] for x in row] for row in whole['bary']]
-        self.assertEqual(npz['bary'][1], as_float)
+        self.assertEqual(npz['bary'][1], [[as_float(x) for x in row] for row in whole['bary']])
         self.assertEqual(support.read_npy(self.match(format='npy').body), ('<i4', whole['vertex']))
         self.assertEqual([int(line) for line in self.match(format='txt').body.split()], whole['vertex'])
         self.assertEqual([int(line) - 1 for line in self.match(format='map').body.split()], whole['vertex'])
+
+    def test_confidence_and_distortion_in_every_format_that_has_them(self):
+        names = ('confidence', 'distortion')
+        for both in ('no', 'yes'):
+            answer = self.match(fields='distortion,confidence', both=both).json()
+            npz = support.read_npz(self.match(format='npz', fields='confidence,distortion', both=both).body)
+            plain = support.read_npz(self.match(format='npz', both=both).body)
+            for prefix, its in (('', answer),) + ((('reverse_', answer['reverse']),) if both == 'yes' else ()):
+                for name in names:
+                    kind, values = npz.pop(prefix + name)
+                    self.assertEqual((kind, values), ('<f4', [as_float(x) for x in its[name]]))
+                self.assertLess(max(its['confidence']), 1)
+                self.assertGreater(min(its['distortion']), 0)
+            self.assertEqual(npz, plain)
+        vertices, _ = result_files.read_ply(self.match(format='ply', fields='confidence,distortion').body)
+        for name in names:
+            self.assertEqual([vertex[name] for vertex in vertices], [as_float(x) for x in answer[name]])
+        # A pair is registered in one order: asked for from the other side, the map is the reverse, and so is what is thought of it.
+        other = self.server.get('/match', src=self.tgt, tgt=self.src, fields='confidence,distortion').json()
+        for name in names:
+            self.assertEqual(other[name], answer['reverse'][name])
+            self.assertNotEqual(other[name], answer[name])
 
     def test_the_map_is_sound(self):
         result = self.match(fields='vertex,corners,bary').json()
@@ -178,7 +204,7 @@ class MatchTest(support.TestCase):
 
     def test_the_same_bytes_again_after_a_restart_and_with_another_thread_count(self):
         formats = ('npz', 'npy', 'txt', 'map', 'ply', 'glb', 'obj', 'png')
-        fields = 'vertex,corners,bary'
+        fields = 'vertex,corners,bary,confidence,distortion'
 
         def stable(server):
             answer = json.loads(self.match(server=server, fields=fields).body)

@@ -107,7 +107,8 @@ class OpenApiTest(support.TestCase):
     def matches(self, checker):
         call, pair = checker.call, f'src={self.a}&tgt={self.b}'
         for rest in ('fields=vertex,corners,bary,confidence,distortion&both=yes', 'format=npz', 'format=npy', 'format=txt', 'format=map', 'format=ply', 'format=glb', 'format=obj',
-                     'format=png', 'fields=faces', 'orientation=any', 'refine=none', 'refine=x', 'candidate=0', 'candidate=7', 'hints=0:0', 'hints=0:99999'):
+                     'format=png', 'format=npz&fields=confidence', 'format=txt&fields=confidence', 'fields=faces', 'orientation=any', 'refine=none',
+                     'refine=x', 'candidate=0', 'candidate=7', 'hints=0:0', 'hints=0:99999'):
             tagged = call('get', '/match', f'/match?{pair}&{rest}')
         tagged = call('get', '/match', '/match?' + pair)
         self.assertEqual(call('get', '/match', '/match?' + pair, headers={'If-None-Match': tagged.headers['ETag']}).status, 304)

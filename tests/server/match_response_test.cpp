@@ -55,6 +55,10 @@ TEST(MatchResponse, OnlyTheSelectedArraysAreTaken) {
   EXPECT_EQ(*judged.distortion, (std::vector<float>{0.25F, 0.25F}));
   EXPECT_EQ(*judged.confidence, (std::vector<float>{0.75F, 0.75F}));
   EXPECT_FALSE(match("distortion").confidence);
+  EXPECT_TRUE(quality_of(result.map, parse_fields("vertex"), engine, nullptr, nullptr).confidence.empty());
+  const VertexQuality quality = quality_of(result.map, parse_fields("confidence"), engine, shape, shape);
+  EXPECT_EQ(quality.confidence, *judged.confidence);
+  EXPECT_TRUE(quality.distortion.empty());
   const api::Match all = match("vertex,corners,bary");
   EXPECT_EQ(*all.vertex, (std::vector<std::int32_t>{2, -1}));
   EXPECT_EQ(*all.corners, (std::vector<std::array<std::int32_t, 3>>{{2, 1, 0}, {-1, -1, -1}}));

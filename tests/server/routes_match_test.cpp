@@ -60,6 +60,41 @@ TEST_F(RoutesMatch, BothDirectionsOfOneRegistration) {
   EXPECT_NE(header(match({{"both", "yes"}}), "ETag"), header(match(), "ETag"));
 }
 
+TEST_F(RoutesMatch, FilesTakeConfidenceAndDistortionBesideTheMap) {
+  const auto has = [](const HttpResponse& response, const char* name) { return response.body.find(name) != std::string::npos; };
+  for (const char* format : {"npz", "ply"}) {
+    const HttpResponse plain = match({{"format", format}});
+    EXPECT_FALSE(has(plain, "confidence") || has(plain, "distortion"));
+    const HttpResponse one = match({{"format", format}, {"fields", "distortion"}});
+    EXPECT_TRUE(has(one, "distortion") && !has(one, "confidence"));
+    const HttpResponse two = match({{"format", format}, {"fields", "distortion,confidence"}});
+    EXPECT_TRUE(has(two, "distortion") && has(two, "confidence"));
+    EXPECT_EQ(two.body, match({{"format", format}, {"fields", "confidence,distortion"}}).body);
+
+    // A variant each, of one result.
+    EXPECT_NE(header(one, "ETag"), header(plain, "ETag"));
+    EXPECT_NE(header(two, "ETag"), header(one, "ETag"));
+    EXPECT_EQ(match({{"format", format}, {"fields", "confidence,distortion"}}, {{"if-none-match", header(two, "ETag")}}).status, 304);
+    EXPECT_EQ(match({{"format", format}, {"fields", "confidence"}}, {{"if-none-match", header(two, "ETag")}}).status, 200);
+
+    const HttpResponse symmetry = get("/shapes/" + src + "/symmetry", {{"format", format}, {"fields", "confidence"}});
+    EXPECT_TRUE(has(symmetry, "confidence") && !has(symmetry, "distortion"));
+    const HttpResponse named = match({{"format", format}, {"fields", "vertex,confidence"}});
+    EXPECT_EQ(problem_code(named), api::Code::invalid_parameter);
+    EXPECT_TRUE(has(named, "have their map whole"));
+  }
+  EXPECT_EQ(engine.matches, 2);  // and the symmetry
+
+  const HttpResponse both = match({{"format", "npz"}, {"fields", "confidence"}, {"both", "yes"}});
+  EXPECT_TRUE(has(both, "reverse_confidence.npy"));
+  EXPECT_FALSE(has(both, "distortion"));
+  for (const char* format : {"npy", "txt", "map", "glb", "obj", "png"}) {
+    const HttpResponse refused = match({{"format", format}, {"fields", "confidence"}});
+    EXPECT_EQ(problem_code(refused), api::Code::invalid_parameter);
+    EXPECT_TRUE(has(refused, "json, npz and ply only"));
+  }
+}
+
 TEST_F(RoutesMatch, EveryRepresentationByParameterAndByHeader) {
   (void)match();  // so that "cached" is true in what follows
   for (const auto& [format, type] : {std::pair{"json", "application/json"},
