@@ -45,7 +45,8 @@ struct MatchingOptions : CommonOptions {
 struct MatchOptions : MatchingOptions {
   std::string source;
   std::string target;
-  std::string output;  ///< empty: only print
+  std::string output;               ///< empty: only print
+  std::vector<std::string> fields;  ///< of "confidence" and "distortion": what the output has beside the map
   std::vector<Hint> hints;
 };
 

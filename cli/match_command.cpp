@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <utility>
@@ -51,21 +52,52 @@ void print_result(const MatchResult& result) {
   for (const auto& [name, value] : result.quality) std::printf("  quality: %s %.5g\n", name.c_str(), value);
 }
 
-void write_map(const ShapeStore& store, const MatchOptions& options, const Correspondence& map, const Preparation& source,
-               const Preparation& target) {
+/// As far as it is asked for; the rest stays empty.
+VertexQuality quality_of(const Correspondence& map, const MatchOptions& options, const MatchShape& source, const MatchShape& target) {
+  if (options.fields.empty()) return {};
+  const auto asked = [&options](const char* name) {
+    return std::find(options.fields.begin(), options.fields.end(), name) != options.fields.end();
+  };
+  VertexQuality quality = vertex_quality(source, target, map);
+  if (!asked("confidence")) quality.confidence.clear();
+  if (!asked("distortion")) quality.distortion.clear();
+  return quality;
+}
+
+void write_map(const ShapeStore& store, const std::string& source_id, const MatchOptions& options, const Correspondence& map,
+               const MatchShape& source, const MatchShape& target) {
   const MapFormat format = output_format_of(options.output).value();
   PolygonMesh source_mesh;
-  if (needs_source_mesh(format)) source_mesh = read_mesh(store.load_upload(source.id), options.source, ReadLimits::none());
-  write_file(options.output, encode_map(format, map, source.shape->surface, target.shape->surface, std::move(source_mesh)));
+  if (needs_source_mesh(format)) source_mesh = read_mesh(store.load_upload(source_id), options.source, ReadLimits::none());
+  write_file(options.output,
+             encode_map(format, map, source.surface(), target.surface(), std::move(source_mesh), quality_of(map, options, source, target)));
+}
+
+/// -o, and what depends on its format.
+void add_output_options(CLI::App& command, MatchOptions& options) {
+  CLI::Option* output =
+      command.add_option("-o,--output", options.output, "Where to write the map or its picture: " + supported_extensions())
+          ->check([](const std::string& file) {
+            return output_format_of(file) ? std::string()
+                                          : "'" + file + "' has no supported extension; supported are " + supported_extensions();
+          });
+  command
+      .add_option("--fields", options.fields,
+                  "What .npz and .ply shall have beside the map, for each vertex of the source: confidence,distortion or one of them")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"confidence", "distortion"}))
+      ->needs(output);
+  command.final_callback([&options] {
+    if (!options.fields.empty() && !holds_quality(output_format_of(options.output).value())) {
+      throw CLI::ValidationError("--fields", "'" + options.output + "' has no room for them; .npz and .ply have");
+    }
+  });
 }
 
 /// Those that do not depend on whether there are one or two meshes.
 void add_shared_options(CLI::App& command, MatchOptions& options) {
-  command.add_option("-o,--output", options.output, "Where to write the map or its picture: " + supported_extensions())
-      ->check([](const std::string& file) {
-        return output_format_of(file) ? std::string()
-                                      : "'" + file + "' has no supported extension; supported are " + supported_extensions();
-      });
+  add_output_options(command, options);
   add_matching_options(command, options);
   command
       .add_option_function<std::string>(
@@ -127,10 +159,11 @@ int run_match(const MatchOptions& options) {
     // One object where a mesh is matched with itself: the engine then knows that it looks for a symmetry.
     const Preparation target = options.target == options.source ? source : prepare_side(store, options.target, options);
     subject = "match";
-    const MatchResult result = match(*source.shape, *target.shape, parameters_of(options), {}, options.threads);
+    const MatchShape source_side(source.shape), target_side(target.shape);
+    const MatchResult result = match(source_side, target_side, parameters_of(options), {}, options.threads);
     print_result(result);
     if (!options.output.empty()) {
-      write_map(store, options, result.map, source, target);
+      write_map(store, source.id, options, result.map, source_side, target_side);
       std::printf("wrote %s\n", options.output.c_str());
     }
     return exit_success;

@@ -51,6 +51,30 @@ class CliTest(support.TestCase):
             with open(f'{self.place}/map.{extension}', 'rb') as file:
                 self.assertEqual(file.read(), server.get('/match', src=ids[0], tgt=ids[1], format=extension).body, extension)
 
+    def test_confidence_and_distortion(self):
+        self.assertEqual(self.run_cli('prepare', 'a.off', 'b.off', '--store', self.store).returncode, 0)
+        server = self.serve(self.store)
+        with open(self.place + '/a.off', 'rb') as a, open(self.place + '/b.off', 'rb') as b:
+            ids = server.ready(a.read()), server.ready(b.read())
+        for fields in ('confidence,distortion', 'distortion'):
+            for extension in ('npz', 'ply'):
+                done = self.run_cli('match', '--fields', fields, 'a.off', 'b.off', '--store', self.store, '-o', 'map.' + extension)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                with open(f'{self.place}/map.{extension}', 'rb') as file:
+                    self.assertEqual(file.read(), server.get('/match', src=ids[0], tgt=ids[1], format=extension, fields=fields).body)
+        done = self.run_cli('symmetry', 'a.off', '--fields', 'confidence', '--store', self.store, '-o', 'map.npz')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.place + '/map.npz', 'rb') as file:
+            self.assertEqual(file.read(), server.get(f'/shapes/{ids[0]}/symmetry', format='npz', fields='confidence').body)
+        # An archive with more than the map is still a map.
+        self.assertEqual(self.run_cli('evaluate', 'a.off', 'a.off', 'map.npz').returncode, 0)
+        for words, *arguments in (("'map.txt' has no room", '-o', 'map.txt', '--fields', 'confidence'),
+                                  ('vertex', '-o', 'map.npz', '--fields', 'confidence,vertex'),
+                                  ('--fields requires --output', '--fields', 'confidence')):
+            wrong = self.run_cli('match', 'a.off', 'b.off', '--store', self.store, *arguments)
+            self.assertEqual(wrong.returncode, 2, wrong.stdout)
+            self.assertIn(words, wrong.stderr)
+
     def test_shares_its_store_with_a_server(self):
         self.run_cli('prepare', 'a.off', '--store', self.store)
         server = self.serve(self.store)
