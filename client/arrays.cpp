@@ -73,9 +73,19 @@ std::vector<Row> rows_of(const std::map<std::string, std::string_view>& files, c
 }
 
 Map map_of(const std::map<std::string, std::string_view>& files, const std::string& prefix) {
-  Map map{rows_of<std::int32_t>(files, prefix + "vertex", "<i4"), rows_of<std::array<std::int32_t, 3>>(files, prefix + "corners", "<i4"),
-          rows_of<std::array<float, 3>>(files, prefix + "bary", "<f4"), nullptr};
-  if (map.corners.size() != map.vertex.size() || map.bary.size() != map.vertex.size()) fail("arrays of different lengths");
+  const auto numbers_if_there = [&](const char* name) {
+    return files.contains(prefix + name + ".npy") ? rows_of<float>(files, prefix + name, "<f4") : std::vector<float>();
+  };
+  Map map{.vertex = rows_of<std::int32_t>(files, prefix + "vertex", "<i4"),
+          .corners = rows_of<std::array<std::int32_t, 3>>(files, prefix + "corners", "<i4"),
+          .bary = rows_of<std::array<float, 3>>(files, prefix + "bary", "<f4"),
+          .confidence = numbers_if_there("confidence"),
+          .distortion = numbers_if_there("distortion"),
+          .reverse = nullptr};
+  const auto differs = [&map](const auto& rows) { return rows.size() != map.vertex.size(); };
+  if (differs(map.corners) || differs(map.bary) || (!map.confidence.empty() && differs(map.confidence)) ||
+      (!map.distortion.empty() && differs(map.distortion)))
+    fail("arrays of different lengths");
   return map;
 }
 

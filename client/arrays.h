@@ -18,6 +18,8 @@ struct Map {
   std::vector<std::int32_t> vertex;                  ///< the corner nearest to the image; -1 for a dropped vertex
   std::vector<std::array<std::int32_t, 3>> corners;  ///< -1 for a dropped vertex
   std::vector<std::array<float, 3>> bary;            ///< non-negative, sum 1; 0 for a dropped vertex
+  std::vector<float> confidence;                     ///< 0 to 1; empty where it was not asked for
+  std::vector<float> distortion;                     ///< 0 for an isometry; empty where it was not asked for
   std::shared_ptr<const Map> reverse;                ///< from target to source, where it was asked for
 };
 

@@ -59,6 +59,10 @@ void add_candidate(Query& query, const MatchOptions& options) {
   if (options.candidate != 0) query.emplace_back("candidate", std::to_string(options.candidate));
 }
 
+void add_fields(Query& query, const MatchOptions& options) {
+  if (!options.fields.empty()) query.emplace_back("fields", options.fields);
+}
+
 Request get(std::string path, Query query = {}, std::chrono::milliseconds wait = {}) {
   return {.method = "GET", .path = std::move(path), .query = std::move(query), .body = {}, .content_type = {}, .wait = wait};
 }
@@ -170,6 +174,7 @@ std::string Client::match_file(const std::string& src, const std::string& tgt, c
   Query query = match_query(src, tgt, options);
   add_candidate(query, options);
   query.emplace_back("format", format);
+  add_fields(query, options);
   if (options.both) query.emplace_back("both", "yes");
   return transport_->send(get("/match", std::move(query), longest_wait));
 }
@@ -188,6 +193,7 @@ std::string Client::symmetry_file(const std::string& id, const std::string& form
   Query query = symmetry_query(options);
   add_candidate(query, options);
   query.emplace_back("format", format);
+  add_fields(query, options);
   return transport_->send(get("/shapes/" + id + "/symmetry", std::move(query), longest_wait));
 }
 

@@ -49,7 +49,8 @@ struct MatchOptions {
   std::vector<std::pair<std::int32_t, std::int32_t>> hints{};  ///< vertices of source and target
   bool both = false;
   bool cache = true;
-  int candidate = 0;  ///< 1 for the next best map; of matches and symmetries alone
+  int candidate = 0;     ///< 1 for the next best map; of matches and symmetries alone
+  std::string fields{};  ///< "confidence,distortion" or one of them, beside the map; of matches and symmetries alone, not of their infos
 };
 
 /// Thread-safe: every call has a connection of its own. Calls throw ProblemError where the server refuses, TransportError where no

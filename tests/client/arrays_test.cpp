@@ -35,8 +35,20 @@ TEST(ClientArrays, ReadsWhatTheServerWrites) {
   EXPECT_TRUE(decode_map(encode_npz(sample_map(0, 0))).vertex.empty());
 }
 
+TEST(ClientArrays, QualityIsThereWhereItWasAskedFor) {
+  const VertexQuality quality{.distortion = {0, 0.5F}, .confidence = {1, 0.25F}}, reverse{.distortion = {}, .confidence = {0, 0, 1}};
+  const Map map = decode_map(encode_npz(sample_map(2, 0), sample_map(3, 0), quality, reverse));
+  EXPECT_EQ(map.confidence, quality.confidence);
+  EXPECT_EQ(map.distortion, quality.distortion);
+  EXPECT_EQ(map.reverse->confidence, reverse.confidence);
+  EXPECT_TRUE(map.reverse->distortion.empty());
+  EXPECT_TRUE(decode_map(encode_npz(sample_map(2, 0))).confidence.empty());
+  EXPECT_THROW((void)decode_map(encode_npz(sample_map(3, 0), quality)), FormatError);  // two numbers for three vertices
+}
+
 TEST(ClientArrays, WhatIsDamagedIsRefused) {
-  const std::string good = encode_npz(sample_map(20, 0));
+  const std::string good =
+      encode_npz(sample_map(20, 0), VertexQuality{.distortion = std::vector<float>(20), .confidence = std::vector<float>(20)});
   for (std::size_t size = 0; size < good.size(); ++size) EXPECT_THROW((void)decode_map(good.substr(0, size)), FormatError) << size;
   // Any byte may be wrong: an error or other numbers, but nothing worse.
   for (std::size_t at = 0; at < good.size(); ++at) {

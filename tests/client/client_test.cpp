@@ -161,9 +161,25 @@ TEST_F(ClientTest, ASymmetryIsAskedForByItsShape) {
   options.cache = false;
   EXPECT_EQ(client().symmetry_info("s", options), match);
   EXPECT_EQ(target, "/shapes/s/symmetry?wait=60.000000&method=default&refine=default&hints=1%3A2&cache=no&format=json&fields=");
+  (void)client().symmetry_file("s", "npz", {.fields = "confidence,distortion"});
+  EXPECT_TRUE(target.ends_with("&format=npz&fields=confidence%2Cdistortion")) << target;
   (void)client().symmetry_file("s", "ply");
   EXPECT_EQ(target, "/shapes/s/symmetry?wait=60.000000&method=default&refine=default&format=ply");
   EXPECT_THROW((void)client().symmetry("s"), FormatError);  // JSON is no NPZ
+}
+
+TEST_F(ClientTest, FieldsAreAskedForWithTheMapAndNotWithItsFigures) {
+  std::string target;
+  server.Get("/match", [&](const httplib::Request& request, httplib::Response& response) {
+    target = request.target;
+    response.set_content(api::to_text(api::to_json(api::Match{})), "application/json");
+  });
+  start();
+  const MatchOptions options{.both = true, .fields = "confidence"};
+  (void)client().match_file("a", "b", "npz", options);
+  EXPECT_TRUE(target.ends_with("&format=npz&fields=confidence&both=yes")) << target;
+  (void)client().match_info("a", "b", options);
+  EXPECT_TRUE(target.ends_with("&format=json&fields=")) << target;
 }
 
 TEST_F(ClientTest, ResultsGoOnWhereTheyBrokeOff) {

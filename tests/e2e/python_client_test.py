@@ -74,6 +74,22 @@ class PythonClientTest(support.TestCase):
         self.assertTrue(self.client.scene(self.a, self.b).startswith(b'glTF'))
         self.assertEqual(len(self.client.match(self.a, self.b, hints=[(0, 0), (5, 5)])), 162)
 
+    def test_confidence_and_distortion(self):
+        plain = self.client.match(self.a, self.b)
+        self.assertEqual((plain.confidence, plain.distortion), (None, None))
+        judged = self.client.match(self.a, self.b, both=True, fields='confidence,distortion')
+        self.assertTrue((judged.bary == plain.bary).all())
+        for result in (judged, judged.reverse):
+            self.assertEqual((result.confidence.dtype, result.confidence.shape), (np.float32, (162,)))
+            self.assertTrue((0 <= result.confidence).all() and (result.confidence <= 1).all())
+            self.assertEqual((result.distortion.dtype, result.distortion.shape), (np.float32, (162,)))
+        info = self.client.match_info(self.a, self.b, fields='confidence')
+        np.testing.assert_array_equal(np.array(info['confidence'], np.float32), judged.confidence)
+        self.assertIsNotNone(self.client.symmetry(self.a, fields='confidence').confidence)
+        self.assertIn(b'property float distortion', self.client.match_file(self.a, self.b, 'ply', fields='distortion'))
+        with self.assertRaises(spherematch.ProblemError):
+            self.client.match_file(self.a, self.b, 'txt', fields='confidence')
+
     def test_symmetry(self):
         symmetry = self.client.symmetry(self.a)
         self.assertEqual((len(symmetry), symmetry.reverse), (162, None))

@@ -36,16 +36,20 @@ class Shape(_Record):
 class Match:
     """The map from a source to a target: row i is uploaded source vertex i.
 
-    vertex   int32 (n,): the corner nearest to the image; -1 for a dropped vertex
-    corners  int32 (n, 3): uploaded target vertices around the image
-    bary     float32 (n, 3): the image's weights in them
-    reverse  the same for the target's vertices, where `both` was asked for, else None
+    vertex      int32 (n,): the corner nearest to the image; -1 for a dropped vertex
+    corners     int32 (n, 3): uploaded target vertices around the image
+    bary        float32 (n, 3): the image's weights in them
+    confidence  float32 (n,): the probability that the image is right; None where `fields` did not ask for it
+    distortion  float32 (n,): how much the map stretches, 0 for an isometry; None where `fields` did not ask for it
+    reverse     the same for the target's vertices, where `both` was asked for, else None
     """
 
     def __init__(self, arrays, prefix=''):
         self.vertex = arrays[prefix + 'vertex']
         self.corners = arrays[prefix + 'corners']
         self.bary = arrays[prefix + 'bary']
+        self.confidence = arrays.get(prefix + 'confidence')
+        self.distortion = arrays.get(prefix + 'distortion')
         self.reverse = Match(arrays, 'reverse_') if prefix + 'reverse_vertex' in arrays else None
 
     def points(self, target_vertices):
@@ -172,15 +176,18 @@ class Client:
 
     # Matches
 
-    def match(self, source, target, both=False, orientation=None, hints=None, method=None, cache=None, candidate=None, refine=None):
+    def match(self, source, target, both=False, orientation=None, hints=None, method=None, cache=None, candidate=None, refine=None, fields=None):
         """The map from source to target. `hints` are pairs (source vertex, target vertex). `candidate` 1 asks for the next best map, `refine`
-        'none' for that of the optical flow alone."""
-        return Match(meshes.load(self.match_file(source, target, 'npz', both, orientation, hints, method, cache, candidate, refine)))
+        'none' for that of the optical flow alone, `fields` 'confidence,distortion' for these two beside the map."""
+        return Match(meshes.load(self.match_file(source, target, 'npz', both, orientation, hints, method, cache, candidate, refine, fields)))
 
-    def match_file(self, source, target, format, both=False, orientation=None, hints=None, method=None, cache=None, candidate=None, refine=None):
-        """The same as the bytes of a file: npz, npy, txt, map, ply, glb, obj, png or json."""
+    def match_file(self, source, target, format, both=False, orientation=None, hints=None, method=None, cache=None, candidate=None, refine=None,
+                   fields=None):
+        """The same as the bytes of a file: npz, npy, txt, map, ply, glb, obj, png or json. `fields` are for npz, ply and json, where they
+        name all arrays."""
         query = {'src': _id(source), 'tgt': _id(target), 'format': format, 'both': 'yes' if both else None, 'orientation': orientation,
-                 'hints': _hints(hints), 'method': method, 'cache': cache, 'candidate': candidate, 'refine': refine, 'wait': _LONGEST_WAIT}
+                 'hints': _hints(hints), 'method': method, 'cache': cache, 'candidate': candidate, 'refine': refine, 'fields': fields,
+                 'wait': _LONGEST_WAIT}
         return self._http.request('GET', '/match', query, extra_time=_LONGEST_WAIT)[2]
 
     def match_info(self, source, target, **options):
@@ -188,13 +195,14 @@ class Client:
         query = {'src': _id(source), 'tgt': _id(target), 'fields': '', 'wait': _LONGEST_WAIT, **options}
         return self._http.json('GET', '/match', query, extra_time=_LONGEST_WAIT)
 
-    def symmetry(self, shape, hints=None, method=None, cache=None, candidate=None, refine=None):
+    def symmetry(self, shape, hints=None, method=None, cache=None, candidate=None, refine=None, fields=None):
         """The intrinsic bilateral symmetry of a shape, a map to itself. `hints` are pairs of vertices that mirror each other."""
-        return Match(meshes.load(self.symmetry_file(shape, 'npz', hints, method, cache, candidate, refine)))
+        return Match(meshes.load(self.symmetry_file(shape, 'npz', hints, method, cache, candidate, refine, fields)))
 
-    def symmetry_file(self, shape, format, hints=None, method=None, cache=None, candidate=None, refine=None):
+    def symmetry_file(self, shape, format, hints=None, method=None, cache=None, candidate=None, refine=None, fields=None):
         """The same as the bytes of a file: npz, npy, txt, map, ply, glb, obj, png or json."""
-        query = {'format': format, 'hints': _hints(hints), 'method': method, 'cache': cache, 'candidate': candidate, 'refine': refine, 'wait': _LONGEST_WAIT}
+        query = {'format': format, 'hints': _hints(hints), 'method': method, 'cache': cache, 'candidate': candidate, 'refine': refine, 'fields': fields,
+                 'wait': _LONGEST_WAIT}
         return self._http.request('GET', f'/shapes/{_id(shape)}/symmetry', query, extra_time=_LONGEST_WAIT)[2]
 
     def symmetry_info(self, shape, **options):
