@@ -1,6 +1,6 @@
 #!/bin/bash
 # docker/smoke-checks.sh URL KEY first|again: what smoke.sh and smoke-chroot.sh ask a running server: that it is ready, keeps strangers
-# out, prepares and matches two of the samples (first), or has kept them over a restart (again).
+# out of everything but the page, prepares and matches two of the samples (first), or has kept them over a restart (again).
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 
@@ -56,6 +56,12 @@ wait_until_ready
 expect 200 "$url/healthz"
 expect 401 "$url/shapes"
 expect 401 --data-binary @samples/hound/stand.off "$url/shapes"
+# The page is bundled when the image is built, and strangers may load all of it.
+files=$(curl -sS --max-time 90 --fail "$url/" | grep -oE '/page/[a-z]+\.[a-z]+(\?v=[0-9a-f]+)?' | sort -u) || fail "no page at $url/"
+for file in $files; do
+  expect 200 "$url$file"
+done
+[[ $files == *page.css\?v=*page.js\?v=* ]] || fail "the page does not ask for its style and its program: $files"
 
 known=$(call "$url/shapes" | jq '.items | length')
 if [ "$phase" = first ]; then
