@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <mutex>
 #include <optional>
 #include <random>
@@ -236,10 +237,12 @@ httplib::Server::HandlerResponse HttpServer::Library::route(const httplib::Reque
 }
 
 int HttpServer::Library::bind(const std::string& host, int port) {
+  errno = 0;  // a name that does not resolve need not set it
   const int bound = port == 0 ? bind_to_any_port(host) : bind_to_port(host, port) ? port : -1;
   // The library listens with a backlog of 5; listening again changes it.
   if (bound < 0 || ::listen(svr_sock_, listen_backlog) != 0) {
-    throw std::runtime_error("cannot listen on " + host + ":" + std::to_string(port));
+    const std::string reason = errno == EADDRINUSE ? ": the port is in use, --port takes another" : "";
+    throw std::runtime_error("cannot listen on " + host + ":" + std::to_string(port) + reason);
   }
   return bound;
 }

@@ -12,6 +12,8 @@
 #include <atomic>
 #include <latch>
 #include <mutex>
+#include <stdexcept>
+#include <string>
 #include <thread>
 
 #include "api/json.h"
@@ -137,6 +139,17 @@ TEST_F(HttpServerTest, AnswersAndEchoesOrMakesARequestId) {
   response = client().Get("/hello", httplib::Headers{{"X-Request-Id", "bad id\""}});
   EXPECT_EQ(response->get_header_value("X-Request-Id").size(), 32U);
   EXPECT_NE(client().Get("/hello")->get_header_value("X-Request-Id"), client().Get("/hello")->get_header_value("X-Request-Id"));
+}
+
+TEST_F(HttpServerTest, APortInUseIsNamed) {
+  start();
+  HttpServer other(router, uploads, {.max_body_bytes = max_body, .threads = 1, .max_connections = 1});
+  try {
+    other.bind("127.0.0.1", port);
+    ADD_FAILURE() << "two servers on one port";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), "cannot listen on 127.0.0.1:" + std::to_string(port) + ": the port is in use, --port takes another");
+  }
 }
 
 TEST_F(HttpServerTest, HeadHasTheLengthWithoutTheBody) {
