@@ -114,7 +114,9 @@ class HostileTest(support.TestCase):
             self.refuse_too_large()
         last = resident_bytes(self.server.process.pid)
         print(f'\nresident after one round {first / MIB:.0f} MiB, after three {last / MIB:.0f} MiB')
-        self.assertLess(last - first, 20 * MIB)
+        # Each of the allocator's four arenas may keep 16 MiB of what was freed (server/main.cpp), and which do depends on the threads'
+        # timing. One large body that stays in each round is more.
+        self.assertLess(last - first, 4 * 16 * MIB)
         self.assertLess(last, 400 * MIB)
 
     def test_chunks_are_refused_however_many(self):
