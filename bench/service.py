@@ -149,7 +149,7 @@ def measure_preparation(bench: Bench) -> None:
 
 def measure_match(bench: Bench) -> None:
     """Whole requests for a map that nobody has computed, and the same as the first request of a server."""
-    for vertices, target in ((bench.large, 0.40), (bench.small, 0.20)):
+    for vertices, target in ((bench.large, 0.80), (bench.small, 0.20)):
         store = bench.store("match")
         pairs = {}
         with bench.server(store) as server:

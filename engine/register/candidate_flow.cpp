@@ -17,8 +17,9 @@
 namespace spherematch {
 namespace {
 
-/// The signals' scores of candidates differ by a few hundredths, so hints decide where they differ by a few hundredths of the shape.
-constexpr double kHintWeight = 0.8;
+/// Of the hints' distance beside the signals' cost, of which candidates differ by a few hundredths, after the optical flow; and after the
+/// elastic flow, which draws hints together in wrong registrations too, so that there the strain tells more.
+constexpr double kHintWeight = 0.4, kDrawnHintWeight = 0.1;
 /// Widths of the guiding deformation in radians: wide before the coarse levels, for proportions that differ, then narrower.
 constexpr double kCoarseGuide = 1.2, kFineGuide = 0.5;
 
@@ -126,7 +127,7 @@ void judge_by_strain(Registration& registration, const Pair& pair) {
   registration.score = registration.cost;
   if (!is_symmetry(pair)) registration.score *= std::pow(registration.strain, kStrainExponent);
   if (pair.hints.source.rows() > 0)
-    registration.score += kHintWeight * hint_distance(registration.map->forward(pair.hints.source), pair.hints.target);
+    registration.score += kDrawnHintWeight * hint_distance(registration.map->forward(pair.hints.source), pair.hints.target);
 }
 
 /// One level of the elastic flow.
